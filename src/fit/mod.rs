@@ -4,10 +4,12 @@
 //! last result as the next start. Then all texels move together so that the *interpolated* lobes
 //! fit, at the texels and at the centres of the cells between them.
 
+mod angle;
 mod layout;
 mod single;
 mod whole;
 
+pub use angle::fit_angle_excess;
 pub use layout::{Layout, ROUGHNESS_FLOOR};
 pub use single::Horizon;
 

@@ -1,0 +1,36 @@
+//! The include on the CPU: the same functions under the same names, generic over `f32` and `f64`.
+//!
+//! ```
+//! use glam::DVec3;
+//! use softbox::shade::{ltc_quad, ltc_surface};
+//!
+//! let table = softbox::table::Table::default();
+//! let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, DVec3::new(0.6, 0.0, 0.8), 0.3);
+//! let lobe = table.lobe(&surface);
+//! // A unit square one unit above the point, emitting downwards.
+//! let square = [
+//!     DVec3::new(-0.5, -0.5, 1.0),
+//!     DVec3::new(-0.5, 0.5, 1.0),
+//!     DVec3::new(0.5, 0.5, 1.0),
+//!     DVec3::new(0.5, -0.5, 1.0),
+//! ];
+//! let value = ltc_quad(&surface, &lobe, square, false);
+//! assert!((value.x - 0.2395).abs() < 1e-4); // the form factor
+//! ```
+
+mod polygon;
+mod quad;
+mod real;
+mod surface;
+
+pub use polygon::{LtcPolygon, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end};
+pub use quad::{
+    ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_far_quad, ltc_offset,
+    ltc_pentagon, ltc_quad,
+};
+pub use real::{Real, Vector, angle_excess};
+pub use surface::{
+    LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent,
+    ltc_lobe, ltc_reflectance, ltc_share_above, ltc_specular, ltc_surface,
+    ltc_table_coordinates, ltc_to_frame, ltc_transform, ltc_value,
+};

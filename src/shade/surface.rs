@@ -1,0 +1,199 @@
+//! Surfaces and lobes.
+
+use super::real::{Real, Vector};
+
+/// Roughness below which the lobe no longer changes.
+pub const LTC_ROUGHNESS_FLOOR: f64 = 0.02;
+
+/// Smallest length by which anything is divided.
+pub const LTC_TINY: f64 = 1e-37;
+
+/// Factor on positions that leaves room for their differences.
+pub const LTC_HEADROOM: f64 = 0.0625;
+
+/// A surface point with its shading frame: the view direction lies in the half-plane of tangent
+/// and normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LtcSurface<R: Real> {
+    /// The point.
+    pub position: R::Vec3,
+    /// Perceptual roughness, at least [`LTC_ROUGHNESS_FLOOR`].
+    pub roughness: R,
+    /// First axis of the frame.
+    pub tangent: R::Vec3,
+    /// Cosine between normal and view, 0…1.
+    pub cos_view: R,
+    /// Second axis of the frame.
+    pub bitangent: R::Vec3,
+    /// Sine between normal and view, 0…1.
+    pub sin_view: R,
+    /// Third axis of the frame.
+    pub normal: R::Vec3,
+    /// Square of the roughness.
+    pub alpha: R,
+}
+
+/// One lobe: a linearly transformed cosine and the weights of the BRDF's two parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LtcLobe<R: Real> {
+    /// Entries (x, y, z, w) of the inverse matrix, rows (x, 0, z), (0, 1, 0), (y, 0, w).
+    pub inverse: [R; 4],
+    /// ∫ f·cos over the hemisphere.
+    pub albedo: R,
+    /// ∫ f·cos·(1 − v·h)⁵ over the hemisphere.
+    pub fresnel: R,
+    /// Cosine between normal and view.
+    pub cos_view: R,
+    /// Sine between normal and view.
+    pub sin_view: R,
+}
+
+pub(super) fn constant<R: Real>(value: f64) -> R {
+    R::new(value)
+}
+
+/// Largest absolute component of `v`.
+pub fn ltc_extent<R: Real>(v: R::Vec3) -> R {
+    v.x().abs().max(v.y().abs()).max(v.z().abs())
+}
+
+/// `v` over its length, whatever that is; zero for a zero vector.
+pub fn ltc_direction<R: Real>(v: R::Vec3) -> R::Vec3 {
+    let scaled = v * (R::new(1.0) / ltc_extent::<R>(v).max(R::new(LTC_TINY)));
+    unit::<R>(scaled)
+}
+
+/// `v` over its length, for a `v` whose square is in range.
+pub(super) fn unit<R: Real>(v: R::Vec3) -> R::Vec3 {
+    v * v.dot(v).max(R::new(LTC_TINY)).inverse_sqrt()
+}
+
+/// Frame and roughness of a surface point; see the include for the domain.
+pub fn ltc_surface<R: Real>(
+    position: R::Vec3,
+    normal: R::Vec3,
+    view: R::Vec3,
+    roughness: R,
+) -> LtcSurface<R> {
+    let (zero, one) = (R::new(0.0), R::new(1.0));
+    let n = ltc_direction::<R>(normal);
+    let v = ltc_direction::<R>(view);
+    let side = if n.z() >= zero { one } else { -one };
+    let p = -one / (side + n.z());
+    let q = n.x() * n.y() * p;
+    let basis_x = R::Vec3::new(one + side * n.x() * n.x() * p, side * q, -side * n.x());
+    let basis_y = R::Vec3::new(q, side + n.y() * n.y() * p, -n.y());
+    let along = [basis_x.dot(v), basis_y.dot(v)];
+    let sine_squared = along[0] * along[0] + along[1] * along[1];
+    let sine_inverse = sine_squared.max(constant(1e-12)).inverse_sqrt();
+    let azimuth = if sine_squared > constant(1e-12) {
+        [along[0] * sine_inverse, along[1] * sine_inverse]
+    } else {
+        [one, zero]
+    };
+    let cosine = n.dot(v);
+    let sine = if cosine > zero { (sine_squared * sine_inverse).min(one) } else { one };
+    let clamped = roughness.clamp(constant(LTC_ROUGHNESS_FLOOR), one);
+    LtcSurface {
+        position,
+        roughness: clamped,
+        tangent: basis_x * azimuth[0] + basis_y * azimuth[1],
+        cos_view: cosine.clamp(zero, one),
+        bitangent: basis_y * azimuth[0] - basis_x * azimuth[1],
+        sin_view: sine,
+        normal: n,
+        alpha: clamped * clamped,
+    }
+}
+
+/// Texture coordinates of a surface in a table of `table_size` by `table_size` texels.
+pub fn ltc_table_coordinates<R: Real>(surface: &LtcSurface<R>, table_size: R) -> R::Vec2 {
+    let root = surface.cos_view * surface.cos_view.max(constant(1e-20)).inverse_sqrt();
+    let coordinate =
+        |c: R| (c * (table_size - constant(1.0)) + constant(0.5)) / table_size;
+    [coordinate(surface.roughness), coordinate(root)].into()
+}
+
+/// The lobe that two texels of the table describe.
+pub fn ltc_lobe<R: Real>(
+    surface: &LtcSurface<R>,
+    shape: R::Vec4,
+    amplitude: R::Vec4,
+) -> LtcLobe<R> {
+    let (c, s, a) = (surface.cos_view, surface.sin_view, surface.alpha);
+    let [x, y, z, w] = shape.into();
+    let [albedo, fresnel, ..] = amplitude.into();
+    LtcLobe {
+        inverse: [c * c + a * x, a * s * y, s * (c + a * z), a * w],
+        albedo,
+        fresnel,
+        cos_view: c,
+        sin_view: s,
+    }
+}
+
+/// The inverse matrix of a lobe times `v`.
+pub fn ltc_transform<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
+    let [x, y, z, w] = lobe.inverse;
+    R::Vec3::new(x * v.x() + z * v.z(), v.y(), y * v.x() + w * v.z())
+}
+
+/// `v` in the frame of a surface.
+pub fn ltc_to_frame<R: Real>(surface: &LtcSurface<R>, v: R::Vec3) -> R::Vec3 {
+    R::Vec3::new(surface.tangent.dot(v), surface.bitangent.dot(v), surface.normal.dot(v))
+}
+
+/// Reflected radiance from the value (diffuse, specular, fresnel) of a light.
+pub fn ltc_reflectance<R: Real>(value: R::Vec3, f0: R::Vec3, f90: R::Vec3) -> R::Vec3 {
+    f0 * (value.y() - value.z()) + f90 * value.z()
+}
+
+/// The parts (specular, fresnel) of a light's value from the `coverage` of a lobe and the mean
+/// direction `toward` the light in the lobe's space.
+pub fn ltc_specular<R: Real>(lobe: &LtcLobe<R>, coverage: R, toward: R::Vec3) -> R::Vec2 {
+    let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
+    let [x, y, z, w] = lobe.inverse;
+    let determinant = x * w - y * z;
+    let direction = R::Vec3::new(
+        w * toward.x() - z * toward.z(),
+        determinant * toward.y(),
+        x * toward.z() - y * toward.x(),
+    );
+    let unit = ltc_direction::<R>(direction);
+    let half_cosine = (half + half * (lobe.sin_view * unit.x() + lobe.cos_view * unit.z()))
+        .clamp(zero, one);
+    let f = one - half_cosine * half_cosine.max(constant(1e-20)).inverse_sqrt();
+    let schlick = f * f * f * f * f;
+    let whole = coverage * coverage;
+    [
+        coverage * lobe.albedo,
+        coverage * (lobe.albedo * schlick * (one - whole) + lobe.fresnel * whole),
+    ]
+    .into()
+}
+
+/// Share of a lobe's energy above the surface.
+pub fn ltc_share_above<R: Real>(lobe: &LtcLobe<R>) -> R {
+    let [x, y, ..] = lobe.inverse;
+    let half: R = constant(0.5);
+    half + half * x * (x * x + y * y).max(constant(LTC_TINY)).inverse_sqrt()
+}
+
+/// The value (diffuse, specular, fresnel) from the signed form factors over the horizons.
+pub fn ltc_value<R: Real>(
+    lobe: &LtcLobe<R>,
+    form_factor: R,
+    vector: R::Vec3,
+    front: bool,
+    two_sided: bool,
+) -> R::Vec3 {
+    let (zero, one) = (R::new(0.0), R::new(1.0));
+    let emits = front | two_sided;
+    let flipped = two_sided & (vector.z() < zero);
+    let toward = if flipped { -vector } else { vector };
+    let diffuse = if two_sided { form_factor.abs() } else { form_factor };
+    let coverage =
+        if emits { (toward.z() / ltc_share_above(lobe)).clamp(zero, one) } else { zero };
+    let [specular, fresnel] = ltc_specular(lobe, coverage, toward).into();
+    R::Vec3::new(if emits { diffuse.clamp(zero, one) } else { zero }, specular, fresnel)
+}

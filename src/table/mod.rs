@@ -1,0 +1,136 @@
+//! The lookup table: packing, reading and file formats.
+
+#[cfg(feature = "package")]
+mod container;
+#[cfg(feature = "bake")]
+mod pack;
+
+#[cfg(feature = "package")]
+pub use container::{Container, ContainerError};
+#[cfg(feature = "bake")]
+pub use pack::clipped_sphere;
+
+use half::f16;
+
+use crate::shade::{LtcLobe, LtcSurface, Real, ltc_lobe, ltc_table_coordinates};
+
+/// A table of half-precision texels: two layers of `size` × `size` texels of four numbers.
+///
+/// Its bytes are those of an RGBA16F texture array without mipmaps: little-endian, layer after
+/// layer, row after row, roughness fastest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    size: usize,
+    texels: Vec<[f16; 4]>,
+}
+
+/// Why bytes are no table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TableError {
+    length: usize,
+    size: usize,
+}
+
+impl core::fmt::Display for TableError {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter) -> core::fmt::Result {
+        let Self { length, size } = self;
+        write!(
+            formatter,
+            "a table of {size} × {size} texels has {} bytes and finite numbers only; these {length} bytes are not one",
+            16 * size * size
+        )
+    }
+}
+
+impl core::error::Error for TableError {}
+
+/// The default table, of 64 × 64 texels for GGX with height-correlated Smith masking.
+impl Default for Table {
+    fn default() -> Self {
+        // The embedded file is compared with a fresh bake by the tests.
+        Self::from_bytes(crate::TABLE_SIZE, crate::TABLE_NATIVE).unwrap_or(Self {
+            size: 0,
+            texels: Vec::new(),
+        })
+    }
+}
+
+impl Table {
+    pub(crate) fn new(size: usize, texels: Vec<[f16; 4]>) -> Self {
+        Self { size, texels }
+    }
+
+    /// Reads the bytes that [`Table::bytes`] writes.
+    ///
+    /// # Errors
+    ///
+    /// If there are not 16·`size`² bytes, or a number among them is not finite.
+    pub fn from_bytes(size: usize, bytes: &[u8]) -> Result<Self, TableError> {
+        let error = TableError { length: bytes.len(), size };
+        let expected = size.checked_mul(size).and_then(|texels| texels.checked_mul(16));
+        if size < 2 || expected != Some(bytes.len()) {
+            return Err(error);
+        }
+        let number = |i: usize| f16::from_le_bytes([bytes[2 * i], bytes[2 * i + 1]]);
+        let texels: Vec<[f16; 4]> = (0..bytes.len() / 8)
+            .map(|texel| core::array::from_fn(|k| number(4 * texel + k)))
+            .collect();
+        if texels.iter().flatten().all(|number| number.is_finite()) {
+            Ok(Self { size, texels })
+        } else {
+            Err(error)
+        }
+    }
+
+    /// Texels along each axis.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// The four numbers of a texel.
+    ///
+    /// # Panics
+    ///
+    /// If there is no such texel.
+    pub fn texel(&self, layer: usize, column: usize, row: usize) -> [f16; 4] {
+        assert!(layer < 2 && column < self.size && row < self.size, "no texel ({column}, {row}) in layer {layer}");
+        self.texels[(layer * self.size + row) * self.size + column]
+    }
+
+    /// The texels as bytes, ready for a texture upload.
+    pub fn bytes(&self) -> Vec<u8> {
+        self.texels.iter().flatten().flat_map(|number| number.to_le_bytes()).collect()
+    }
+
+    /// A layer at texture coordinates (0…1 from edge to edge), filtered linearly and clamped to the
+    /// edge, as a sampler would return it.
+    pub fn sample<R: Real>(&self, layer: usize, coordinates: R::Vec2) -> R::Vec4 {
+        let last = self.size - 1;
+        let place = |coordinate: R| {
+            let position = coordinate.to_f64() * self.size as f64 - 0.5;
+            let position = position.clamp(0.0, last as f64);
+            let cell = (position as usize).min(last - 1);
+            (cell, position - cell as f64)
+        };
+        let [u, v] = coordinates.into();
+        let ((column, right), (row, down)) = (place(u), place(v));
+        let corners = [
+            (self.texel(layer, column, row), (1.0 - right) * (1.0 - down)),
+            (self.texel(layer, column + 1, row), right * (1.0 - down)),
+            (self.texel(layer, column, row + 1), (1.0 - right) * down),
+            (self.texel(layer, column + 1, row + 1), right * down),
+        ];
+        let sum: [R; 4] = core::array::from_fn(|k| {
+            R::new(corners.iter().map(|(texel, weight)| weight * texel[k].to_f64()).sum())
+        });
+        sum.into()
+    }
+
+    /// The lobe of a surface, for a table in the native layout.
+    pub fn lobe<R: Real>(&self, surface: &LtcSurface<R>) -> LtcLobe<R> {
+        let [u, v] = ltc_table_coordinates(surface, R::new(self.size as f64)).into();
+        let shape = self.sample::<R>(0, [u, v].into());
+        let amplitude = self.sample::<R>(1, [u, v].into());
+        ltc_lobe(surface, shape, amplitude)
+    }
+}

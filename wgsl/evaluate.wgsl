@@ -1,0 +1,66 @@
+// Evaluates pairs of surfaces and lights from storage buffers. Appended to ltc.wgsl.
+//
+// One invocation evaluates one pair; dispatch (number of pairs + 63) / 64 workgroups.
+
+/// A surface point.
+struct EvaluateSurface {
+    position: vec3<f32>,
+    /// Perceptual roughness, 0 to 1.
+    roughness: f32,
+    normal: vec3<f32>,
+    spare_a: f32,
+    /// Towards the eye.
+    view: vec3<f32>,
+    spare_b: f32,
+}
+
+/// A polygon light: `count` vertices from `first` on.
+struct EvaluateLight {
+    first: u32,
+    count: u32,
+    /// Sum of EVALUATE_TWO_SIDED and EVALUATE_CONVEX_QUAD, where they apply.
+    flags: u32,
+    spare: u32,
+}
+
+const EVALUATE_TWO_SIDED: u32 = 1u;
+/// The light has four vertices and is convex.
+const EVALUATE_CONVEX_QUAD: u32 = 2u;
+
+@group(0) @binding(0) var<storage, read> surfaces: array<EvaluateSurface>;
+@group(0) @binding(1) var<storage, read> lights: array<EvaluateLight>;
+/// The fourth component is not used.
+@group(0) @binding(2) var<storage, read> vertices: array<vec4<f32>>;
+/// Indices of a surface and a light.
+@group(0) @binding(3) var<storage, read> pairs: array<vec2<u32>>;
+/// Diffuse, specular and fresnel value of each pair, and 0.
+@group(0) @binding(4) var<storage, read_write> values: array<vec4<f32>>;
+@group(0) @binding(5) var table: texture_2d_array<f32>;
+@group(0) @binding(6) var table_sampler: sampler;
+
+@compute @workgroup_size(64)
+fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    let index = invocation.x;
+    if (index >= arrayLength(&pairs)) {
+        return;
+    }
+    let pair = pairs[index];
+    let point = surfaces[pair.x];
+    let light = lights[pair.y];
+    let two_sided = (light.flags & EVALUATE_TWO_SIDED) != 0u;
+    let surface = ltc_surface(point.position, point.normal, point.view, point.roughness);
+    let table_size = f32(textureDimensions(table).x);
+    let lobe = ltc_lobe_from_table(surface, table, table_sampler, table_size);
+    let first = light.first;
+    var value: vec3<f32>;
+    if ((light.flags & EVALUATE_CONVEX_QUAD) != 0u) {
+        value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
+    } else {
+        var polygon = ltc_polygon_begin(surface, vertices[first].xyz);
+        for (var i = 1u; i < light.count; i++) {
+            ltc_polygon_add(&polygon, surface, lobe, vertices[first + i].xyz);
+        }
+        value = ltc_polygon_end(&polygon, surface, lobe, two_sided);
+    }
+    values[index] = vec4<f32>(value, 0.0);
+}

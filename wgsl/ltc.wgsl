@@ -1,0 +1,647 @@
+// Softbox: light from polygons by linearly transformed cosines.
+//
+// The idea (Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly
+// Transformed Cosines"): the integral of a clamped cosine over a polygon has a closed form
+// (Lambert 1760). A matrix M that maps the clamped cosine onto the shape of a BRDF's lobe turns the
+// integral of that lobe over a polygon into the integral of the cosine over the polygon times the
+// inverse of M. A table holds that inverse for each roughness and view.
+//
+// CONVENTIONS
+//   Space       any right-handed space; all positions and directions in the same one.
+//   Directions  point away from the surface. The view direction points to the eye.
+//   Lengths     normal and view need not be unit; positions are in any unit.
+//   Roughness   perceptual, 0 to 1: alpha = roughness * roughness. Below LTC_ROUGHNESS_FLOOR the
+//               lobe stays that of the floor.
+//   Winding     a polygon emits from the side from which its vertices run counter-clockwise.
+//   Values      integrals over the solid angle of the light for unit radiance. Diffuse: of
+//               cos / pi, the form factor, 0 to 1. Specular: of f cos for F = 1. Fresnel: of
+//               f cos (1 - v.h)^5, Schlick's part. No factor of pi is left to the caller: multiply
+//               by the light's radiance, and the diffuse value by the surface's base colour.
+//   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
+//
+// THREE LEVELS OF USE
+//   1. ltc_table_coordinates: where to sample; sample in any way you like.
+//   2. ltc_lobe from the two texels, then ltc_quad or the ltc_polygon functions.
+//   3. ltc_lobe_from_table: with the texture array and a sampler.
+//
+// ARITHMETIC
+//   All geometry is f32. No input with finite coordinates makes an infinity or a NaN; nothing here
+//   tests for one. Positions are scaled by 1/16 so that the difference of two finite positions is
+//   finite, and by the light's own size so that no product leaves the range of f32.
+
+/// Pi.
+const LTC_PI: f32 = 3.14159265358979;
+
+/// 1 / (2 pi).
+const LTC_OVER_TWO_PI: f32 = 0.159154943091895;
+
+/// Roughness below which the lobe no longer changes: alpha = 0.0004.
+const LTC_ROUGHNESS_FLOOR: f32 = 0.02;
+
+/// Smallest length by which anything is divided; a reciprocal of it is still finite.
+const LTC_TINY: f32 = 1e-37;
+
+/// Factor on positions that leaves room for their differences, a power of two.
+const LTC_HEADROOM: f32 = 0.0625;
+
+/// A surface point with its shading frame: the view direction lies in the half-plane of tangent
+/// and normal, tangent x bitangent = normal.
+struct LtcSurface {
+    /// The point, in the caller's space.
+    position: vec3<f32>,
+    /// Perceptual roughness, at least LTC_ROUGHNESS_FLOOR.
+    roughness: f32,
+    /// First axis of the frame.
+    tangent: vec3<f32>,
+    /// Cosine between normal and view, 0 to 1.
+    cos_view: f32,
+    /// Second axis of the frame.
+    bitangent: vec3<f32>,
+    /// Sine between normal and view, 0 to 1.
+    sin_view: f32,
+    /// Third axis of the frame.
+    normal: vec3<f32>,
+    /// Square of the roughness.
+    alpha: f32,
+}
+
+/// One lobe: a linearly transformed cosine and the weights of the BRDF's two parts.
+struct LtcLobe {
+    /// Entries (x, y, z, w) of the inverse matrix, in the surface's frame:
+    /// rows (x, 0, z), (0, 1, 0), (y, 0, w).
+    inverse: vec4<f32>,
+    /// The BRDF's integral of f cos over the hemisphere, for F = 1.
+    albedo: f32,
+    /// The BRDF's integral of f cos (1 - v.h)^5 over the hemisphere.
+    fresnel: f32,
+    /// Cosine between normal and view.
+    cos_view: f32,
+    /// Sine between normal and view.
+    sin_view: f32,
+}
+
+/// State of a polygon that is given vertex by vertex; read and written by the library alone.
+struct LtcPolygon {
+    /// First vertex, in the caller's space.
+    first: vec3<f32>,
+    /// Factor that brings the first vertex to a distance of about 1.
+    scale: f32,
+    /// Last vertex so far, in the caller's space.
+    previous: vec3<f32>,
+    /// Twice the signed area so far times the height of the surface point over the light's plane.
+    facing: f32,
+    /// First point on the surface's horizon, in the frame.
+    surface_crossing: vec3<f32>,
+    /// 1 once there is such a point.
+    surface_crossed: f32,
+    /// Its offset from the first vertex.
+    surface_crossing_offset: vec3<f32>,
+    /// Form factor so far, times 2 pi and signed.
+    diffuse: f32,
+    /// First point on the lobe's horizon, in the lobe's space.
+    lobe_crossing: vec3<f32>,
+    /// 1 once there is such a point.
+    lobe_crossed: f32,
+    /// Its offset from the first vertex.
+    lobe_crossing_offset: vec3<f32>,
+    /// Vector form factor so far in the lobe's space, times 2 pi and signed.
+    lobe_sum: vec3<f32>,
+}
+
+// ---------------------------------------------------------------------------------------------
+// Surface and lobe
+// ---------------------------------------------------------------------------------------------
+
+/// Largest absolute component of `v`.
+fn ltc_extent(v: vec3<f32>) -> f32 {
+    return max(max(abs(v.x), abs(v.y)), abs(v.z));
+}
+
+/// `v` over its length, whatever that is: neither huge nor tiny vectors lose their direction.
+/// Zero for a zero vector.
+fn ltc_direction(v: vec3<f32>) -> vec3<f32> {
+    let scaled = v * (1.0 / max(ltc_extent(v), LTC_TINY));
+    return scaled * inverseSqrt(max(dot(scaled, scaled), LTC_TINY));
+}
+
+/// Frame and roughness of a surface point. `normal` and `view` (towards the eye) need not be unit,
+/// but not zero. A view along the normal is as good as any other; one below the surface counts as
+/// a grazing one. `roughness` outside 0 to 1 is clamped.
+///
+/// The tangent is the azimuth of the view in a basis made from the normal alone (Duff et al. 2017,
+/// "Building an Orthonormal Basis, Revisited"), so the frame stays orthonormal to rounding however
+/// close the view comes to the normal.
+fn ltc_surface(position: vec3<f32>, normal: vec3<f32>, view: vec3<f32>, roughness: f32) -> LtcSurface {
+    let n = ltc_direction(normal);
+    let v = ltc_direction(view);
+    let side = select(-1.0, 1.0, n.z >= 0.0);
+    let p = -1.0 / (side + n.z);
+    let q = n.x * n.y * p;
+    let basis_x = vec3<f32>(1.0 + side * n.x * n.x * p, side * q, -side * n.x);
+    let basis_y = vec3<f32>(q, side + n.y * n.y * p, -n.y);
+    let along = vec2<f32>(dot(basis_x, v), dot(basis_y, v));
+    let sine_squared = dot(along, along);
+    // Within a microradian of the normal the azimuth is noise, and lobes there are round.
+    let sine_inverse = inverseSqrt(max(sine_squared, 1e-12));
+    let azimuth = select(vec2<f32>(1.0, 0.0), along * sine_inverse, sine_squared > 1e-12);
+    let cosine = dot(n, v);
+    // Near the normal the sine is taken from the tangential part: 1 - cosine^2 has no digits there.
+    let sine = select(1.0, min(sine_squared * sine_inverse, 1.0), cosine > 0.0);
+    let clamped = clamp(roughness, LTC_ROUGHNESS_FLOOR, 1.0);
+    var surface: LtcSurface;
+    surface.position = position;
+    surface.roughness = clamped;
+    surface.tangent = basis_x * azimuth.x + basis_y * azimuth.y;
+    surface.cos_view = clamp(cosine, 0.0, 1.0);
+    surface.bitangent = basis_y * azimuth.x - basis_x * azimuth.y;
+    surface.sin_view = sine;
+    surface.normal = n;
+    surface.alpha = clamped * clamped;
+    return surface;
+}
+
+/// Texture coordinates of a surface in a table of `table_size` by `table_size` texels: roughness
+/// along x, the square root of the view's cosine along y, from the first texel's centre to the last
+/// one's. Sample with bilinear filtering and clamping.
+fn ltc_table_coordinates(surface: LtcSurface, table_size: f32) -> vec2<f32> {
+    // The square root without WGSL's sqrt(0), which has no accuracy guarantee.
+    let root = surface.cos_view * inverseSqrt(max(surface.cos_view, 1e-20));
+    return (vec2<f32>(surface.roughness, root) * (table_size - 1.0) + 0.5) / table_size;
+}
+
+/// The lobe that two texels of the table describe.
+///
+/// `shape` (layer 0) holds the lobe as its deviation (X, Y, Z, W) from the mirror's lobe, in units
+/// of the lobe's width, with t the angle between normal and view:
+///     x = cos^2 t + alpha X      z = sin t (cos t + alpha Z)
+///     y = alpha sin t Y          w = alpha W
+/// so neither interpolation nor half precision moves a sharp highlight off its place. For
+/// alpha -> 0, X and Z vanish, and the rest tends to Y = -2 cos t, W = 2 cos^2 t.
+/// `amplitude` (layer 1) holds the albedo and its Schlick part in x and y.
+fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcLobe {
+    let c = surface.cos_view;
+    let s = surface.sin_view;
+    let a = surface.alpha;
+    var lobe: LtcLobe;
+    lobe.inverse = vec4<f32>(c * c + a * shape.x, a * s * shape.y, s * (c + a * shape.z), a * shape.w);
+    lobe.albedo = amplitude.x;
+    lobe.fresnel = amplitude.y;
+    lobe.cos_view = c;
+    lobe.sin_view = s;
+    return lobe;
+}
+
+/// The lobe of a surface from the table's texture array (layers 0 and 1, `table_size` texels along
+/// each side) and a sampler that filters linearly and clamps to the edge.
+fn ltc_lobe_from_table(surface: LtcSurface, table: texture_2d_array<f32>, table_sampler: sampler, table_size: f32) -> LtcLobe {
+    let at = ltc_table_coordinates(surface, table_size);
+    let shape = textureSampleLevel(table, table_sampler, at, 0, 0.0);
+    let amplitude = textureSampleLevel(table, table_sampler, at, 1, 0.0);
+    return ltc_lobe(surface, shape, amplitude);
+}
+
+/// The inverse matrix of a lobe times `v`.
+fn ltc_transform(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(lobe.inverse.x * v.x + lobe.inverse.z * v.z, v.y, lobe.inverse.y * v.x + lobe.inverse.w * v.z);
+}
+
+/// `v` in the frame of a surface.
+fn ltc_to_frame(surface: LtcSurface, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(surface.tangent, v), dot(surface.bitangent, v), dot(surface.normal, v));
+}
+
+/// Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
+/// `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
+/// light of unit radiance (Schlick 1994).
+fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_reflectance: vec3<f32>) -> vec3<f32> {
+    return normal_reflectance * (value.y - value.z) + grazing_reflectance * value.z;
+}
+
+/// The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
+/// its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
+///
+/// A lobe's shape is fitted to the whole BRDF. Schlick's part has another shape, and knows it from
+/// the direction: for a small light it is (1 - v.h)^5 of the specular part, v.h taken at the light;
+/// for a light that covers the whole lobe it is the table's average. The square of the coverage
+/// leads from one to the other.
+fn ltc_specular(lobe: LtcLobe, coverage: f32, toward: vec3<f32>) -> vec2<f32> {
+    // The matrix itself, up to the positive factor 1 / determinant.
+    let m = lobe.inverse;
+    let volume = m.x * m.w - m.y * m.z;
+    let direction = vec3<f32>(m.w * toward.x - m.z * toward.z, volume * toward.y, m.x * toward.z - m.y * toward.x);
+    let unit = ltc_direction(direction);
+    // cos^2 of half the angle between view and light: the half vector's cosine, squared.
+    let half_cosine = clamp(0.5 + 0.5 * (lobe.sin_view * unit.x + lobe.cos_view * unit.z), 0.0, 1.0);
+    let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
+    let schlick = f * f * f * f * f;
+    let whole = coverage * coverage;
+    return coverage * vec2<f32>(lobe.albedo, lobe.albedo * schlick * (1.0 - whole) + lobe.fresnel * whole);
+}
+
+/// Share of a lobe's energy above the surface. In the lobe's space the surface's half-space has the
+/// normal (-y, 0, x); the cosine hemisphere that it cuts projects to half a disk and half an
+/// ellipse, (1 + cos g) / 2 of the whole for an angle g between the two normals.
+fn ltc_share_above(lobe: LtcLobe) -> f32 {
+    let m = lobe.inverse;
+    return 0.5 + 0.5 * m.x * inverseSqrt(max(m.x * m.x + m.y * m.y, LTC_TINY));
+}
+
+/// The value (diffuse, specular, fresnel) from the signed form factor over the surface's horizon
+/// and the signed vector form factor over both horizons in the lobe's space; `front` tells whether
+/// the light shows its emitting side.
+fn ltc_value(lobe: LtcLobe, form_factor: f32, vector: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
+    // A two-sided light is lit by the sign that the sum itself has: `front` may differ from it by
+    // rounding where the light is seen edge-on.
+    let emits = front | two_sided;
+    let flipped = two_sided & vector.z < 0.0;
+    let toward = select(vector, -vector, flipped);
+    let diffuse = select(form_factor, abs(form_factor), two_sided);
+    let coverage = select(0.0, clamp(toward.z / ltc_share_above(lobe), 0.0, 1.0), emits);
+    let specular = ltc_specular(lobe, coverage, toward);
+    return vec3<f32>(select(0.0, clamp(diffuse, 0.0, 1.0), emits), specular);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Edges
+// ---------------------------------------------------------------------------------------------
+
+/// (t / sin t) - 1 for an angle t of at most pi/2, from k = 1 - cos t. The relative error of
+/// t / sin t is below 2e-7. The coefficients are the minimax fit `softbox::fit::fit_angle_excess`
+/// of degree 7; no built-in inverse function of WGSL is guaranteed to be as close.
+fn ltc_angle_excess(k: f32) -> f32 {
+    let high = ((0.01714316 * k - 0.041149218) * k + 0.058181286) * k - 0.022927942;
+    let low = ((0.03800492 + high * k) * k + 0.054650154) * k + 0.13356799;
+    return (low * k + 0.33332586) * k;
+}
+
+/// The edge integral (t / sin t) (a x b) of two unit vectors with the angle t between them, which is
+/// 2 pi times the edge's share of the vector form factor (Lambert; Baum et al. 1989).
+///
+/// The usual form takes sin t from 1 - (a.b)^2 and a x b from the products; both cancel, the first
+/// for an edge that subtends nearly 180 degrees, which is every edge of a light that touches the
+/// surface, the second for a short one. Here the cross product is that of a and the difference
+/// b - a, and its length is the sine (Lagrange's identity). Bounded by pi for any input.
+fn ltc_edge(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+    let chord = b - a;
+    let normal = cross(a, chord);
+    let k = 0.5 * dot(chord, chord);
+    let excess = ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
+    let obtuse = LTC_PI * inverseSqrt(max(dot(normal, normal), 1e-30)) - (1.0 + excess);
+    return normal * select(1.0 + excess, obtuse, k > 1.0);
+}
+
+/// The edge integral of unit vectors a = reference + a_offset and b = reference + b_offset, less a
+/// part that vanishes over every closed polygon.
+///
+/// Over a closed polygon the cross products of neighbours add up to those of their offsets from any
+/// fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
+/// so its form factor is too, where a sum of ltc_edge has lost its digits: its terms are of the
+/// order of the light's angular size, its sum of that size squared. A unit vector's offset along the
+/// unit reference is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
+/// horizon as well. Exact for polygons of every size; nothing has to take over from anything.
+fn ltc_edge_about(reference: vec3<f32>, a_offset: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
+    let a = reference + a_offset;
+    let chord = b_offset - a_offset;
+    let normal = cross(a, chord);
+    let k = 0.5 * dot(chord, chord);
+    let excess = ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
+    let obtuse = LTC_PI * inverseSqrt(max(dot(normal, normal), 1e-30)) - (2.0 + excess);
+    let along = dot(reference, cross(a_offset, b_offset));
+    let across = 0.5 * (a_offset * dot(b_offset, b_offset) - b_offset * dot(a_offset, a_offset));
+    return reference * along + cross(reference, across) + normal * select(excess, obtuse, k > 1.0);
+}
+
+/// Difference of the directions of `point` and `origin`, which differ by `offset`, with the
+/// relative precision of `offset`: the two unit vectors themselves differ by rounding alone when the
+/// points are close. `reference` is the direction of `origin`.
+fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, point: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
+    let inverse_length = inverseSqrt(max(dot(point, point), LTC_TINY));
+    let length_sum = dot(point, point) * inverse_length + dot(origin, reference);
+    let length_difference = dot(offset, origin + point) / max(length_sum, LTC_TINY);
+    let near = (offset - reference * length_difference) * inverse_length;
+    // With points far apart the subtraction loses nothing, and `offset` may be the less precise.
+    let far = point * inverse_length - reference;
+    return select(far, near, dot(offset, offset) < 0.0625 * dot(origin, origin));
+}
+
+/// Where the segment from `a`, above the plane z = 0, to `b`, not above it, meets that plane.
+fn ltc_crossing(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+    let t = a.z / max(a.z - b.z, LTC_TINY);
+    return vec3<f32>(a.xy + (b.xy - a.xy) * t, 0.0);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Quads
+// ---------------------------------------------------------------------------------------------
+
+/// Vector form factor, times 2 pi and signed, of a convex pentagon cut at z = 0, in any linear
+/// space; x and y are meaningful only as a direction. Repeated vertices make it any smaller polygon.
+fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>) -> vec3<f32> {
+    let lowest = min(min(min(a.z, b.z), min(c.z, d.z)), e.z);
+    let highest = max(max(max(a.z, b.z), max(c.z, d.z)), e.z);
+    let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
+    let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
+    let c_unit = c * inverseSqrt(max(dot(c, c), LTC_TINY));
+    let d_unit = d * inverseSqrt(max(dot(d, d), LTC_TINY));
+    let e_unit = e * inverseSqrt(max(dot(e, e), LTC_TINY));
+    if (lowest > 0.0) {
+        return ltc_edge(b_unit, a_unit) + ltc_edge(c_unit, b_unit) + ltc_edge(d_unit, c_unit)
+            + ltc_edge(e_unit, d_unit) + ltc_edge(a_unit, e_unit);
+    }
+    if (highest <= 0.0) {
+        return vec3<f32>(0.0);
+    }
+    let a_up = a.z > 0.0;
+    let b_up = b.z > 0.0;
+    let c_up = c.z > 0.0;
+    let d_up = d.z > 0.0;
+    let e_up = e.z > 0.0;
+    // A convex polygon leaves the upper side once and comes back once.
+    let leave_b = b_up & !c_up;
+    let leave_c = c_up & !d_up;
+    let leave_d = d_up & !e_up;
+    let leave_e = e_up & !a_up;
+    let leave_from = select(select(select(select(a, b, leave_b), c, leave_c), d, leave_d), e, leave_e);
+    let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
+    let enter_b = b_up & !a_up;
+    let enter_c = c_up & !b_up;
+    let enter_d = d_up & !c_up;
+    let enter_e = e_up & !d_up;
+    let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
+    let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
+    let leave = ltc_crossing(leave_from, leave_to);
+    let enter = ltc_crossing(enter_to, enter_from);
+    let x = leave * inverseSqrt(max(dot(leave, leave), LTC_TINY));
+    let y = enter * inverseSqrt(max(dot(enter, enter), LTC_TINY));
+    // Each edge runs between what is left of its ends; an edge below is left with one point.
+    let a_end = select(select(y, x, e_up), a_unit, a_up);
+    let b_end = select(select(y, x, a_up), b_unit, b_up);
+    let c_end = select(select(y, x, b_up), c_unit, c_up);
+    let d_end = select(select(y, x, c_up), d_unit, d_up);
+    let e_end = select(select(y, x, d_up), e_unit, e_up);
+    let a_start = select(y, a_unit, a_up);
+    let b_start = select(y, b_unit, b_up);
+    let c_start = select(y, c_unit, c_up);
+    let d_start = select(y, d_unit, d_up);
+    let e_start = select(y, e_unit, e_up);
+    return ltc_edge(b_end, a_start) + ltc_edge(c_end, b_start) + ltc_edge(d_end, c_start)
+        + ltc_edge(e_end, d_start) + ltc_edge(a_end, e_start) + ltc_edge(y, x);
+}
+
+/// Vector form factor, times 2 pi and signed, of a quad above the horizon from its first vertex `a`
+/// and the sides from there to the others, all much shorter than the distance.
+fn ltc_far_quad(a: vec3<f32>, side_b: vec3<f32>, side_c: vec3<f32>, side_d: vec3<f32>) -> vec3<f32> {
+    let reference = a * inverseSqrt(max(dot(a, a), LTC_TINY));
+    let b_offset = ltc_offset(a, reference, a + side_b, side_b);
+    let c_offset = ltc_offset(a, reference, a + side_c, side_c);
+    let d_offset = ltc_offset(a, reference, a + side_d, side_d);
+    let a_offset = vec3<f32>(0.0);
+    return ltc_edge_about(reference, b_offset, a_offset) + ltc_edge_about(reference, c_offset, b_offset)
+        + ltc_edge_about(reference, d_offset, c_offset) + ltc_edge_about(reference, a_offset, d_offset);
+}
+
+/// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
+/// `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
+/// vertices make it a triangle. For a quad that is not convex use the polygon functions.
+///
+/// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
+/// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
+/// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
+fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
+    let origin = surface.position * LTC_HEADROOM;
+    let a_far = a * LTC_HEADROOM;
+    let a_full = a_far - origin;
+    let b_full = b * LTC_HEADROOM - origin;
+    let c_full = c * LTC_HEADROOM - origin;
+    let d_full = d * LTC_HEADROOM - origin;
+    let extent = max(max(ltc_extent(a_full), ltc_extent(b_full)), max(ltc_extent(c_full), ltc_extent(d_full)));
+    let scale = 1.0 / max(extent, LTC_TINY);
+    // Differences of the vertices themselves: those of the vectors to the surface have lost digits.
+    let to_a = a_full * scale;
+    let side_b = (b * LTC_HEADROOM - a_far) * scale;
+    let side_c = (c * LTC_HEADROOM - a_far) * scale;
+    let side_d = (d * LTC_HEADROOM - a_far) * scale;
+    let area = cross(side_c, side_d - side_b);
+    let front = dot(area, to_a) < 0.0;
+
+    let p_a = ltc_to_frame(surface, to_a);
+    let size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
+    if (size_squared < 0.0625 * dot(to_a, to_a)) {
+        let e_b = ltc_to_frame(surface, side_b);
+        let e_c = ltc_to_frame(surface, side_c);
+        let e_d = ltc_to_frame(surface, side_d);
+        let lowest = p_a.z + min(min(0.0, e_b.z), min(e_c.z, e_d.z));
+        let highest = p_a.z + max(max(0.0, e_b.z), max(e_c.z, e_d.z));
+        if (highest <= 0.0) {
+            return vec3<f32>(0.0);
+        }
+        if (lowest > 0.0) {
+            let near = ltc_far_quad(p_a, e_b, e_c, e_d);
+            let l_a = ltc_transform(lobe, p_a);
+            let l_b = ltc_transform(lobe, e_b);
+            let l_c = ltc_transform(lobe, e_c);
+            let l_d = ltc_transform(lobe, e_d);
+            let lobe_size = max(max(dot(l_b, l_b), dot(l_c, l_c)), dot(l_d, l_d));
+            let lobe_lowest = l_a.z + min(min(0.0, l_b.z), min(l_c.z, l_d.z));
+            var vector: vec3<f32>;
+            if ((lobe_size < 0.0625 * dot(l_a, l_a)) & (lobe_lowest > 0.0)) {
+                vector = ltc_far_quad(l_a, l_b, l_c, l_d);
+            } else {
+                vector = ltc_pentagon(l_a, l_a + l_b, l_a + l_c, l_a + l_d, l_a + l_d);
+            }
+            return ltc_value(lobe, near.z * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
+        }
+        // A distant light on the horizon keeps its precision only in the streamed form.
+        var polygon = ltc_polygon_begin(surface, a);
+        ltc_polygon_add(&polygon, surface, lobe, b);
+        ltc_polygon_add(&polygon, surface, lobe, c);
+        ltc_polygon_add(&polygon, surface, lobe, d);
+        return ltc_polygon_end(&polygon, surface, lobe, two_sided);
+    }
+
+    let p_b = ltc_to_frame(surface, b_full * scale);
+    let p_c = ltc_to_frame(surface, c_full * scale);
+    let p_d = ltc_to_frame(surface, d_full * scale);
+    let a_up = p_a.z > 0.0;
+    let b_up = p_b.z > 0.0;
+    let c_up = p_c.z > 0.0;
+    let d_up = p_d.z > 0.0;
+    if (!(a_up | b_up | c_up | d_up)) {
+        return vec3<f32>(0.0);
+    }
+    // Cut at the surface: turn the quad until its last vertex is the last one below, so that the
+    // cut quad is the pentagon of the first three, the exit and the entry.
+    let last_a = b_up & !a_up;
+    let last_b = c_up & !b_up;
+    let last_c = d_up & !c_up;
+    let half_turn = last_b | last_c;
+    let turn = last_a | last_c;
+    let h_a = select(p_a, p_c, half_turn);
+    let h_b = select(p_b, p_d, half_turn);
+    let h_c = select(p_c, p_a, half_turn);
+    let h_d = select(p_d, p_b, half_turn);
+    let q_a = select(h_a, h_b, turn);
+    let q_b = select(h_b, h_c, turn);
+    let q_c = select(h_c, h_d, turn);
+    let q_d = select(h_d, h_a, turn);
+    var v_b = q_b;
+    var v_c = q_c;
+    var v_d = q_d;
+    var v_e = q_d;
+    if (!(q_d.z > 0.0)) {
+        let up_b = q_b.z > 0.0;
+        let up_c = q_c.z > 0.0;
+        let leave = ltc_crossing(select(select(q_a, q_b, up_b), q_c, up_c), select(select(q_b, q_c, up_b), q_d, up_c));
+        v_b = select(leave, q_b, up_b);
+        v_c = select(leave, q_c, up_c);
+        v_d = leave;
+        v_e = ltc_crossing(q_a, q_d);
+    }
+    let a_unit = q_a * inverseSqrt(max(dot(q_a, q_a), LTC_TINY));
+    let b_unit = v_b * inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
+    let c_unit = v_c * inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
+    let d_unit = v_d * inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
+    let e_unit = v_e * inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
+    let sum = ltc_edge(b_unit, a_unit).z + ltc_edge(c_unit, b_unit).z + ltc_edge(d_unit, c_unit).z
+        + ltc_edge(e_unit, d_unit).z + ltc_edge(a_unit, e_unit).z;
+    let vector = ltc_pentagon(ltc_transform(lobe, q_a), ltc_transform(lobe, v_b), ltc_transform(lobe, v_c),
+        ltc_transform(lobe, v_d), ltc_transform(lobe, v_e));
+    return ltc_value(lobe, sum * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Polygons of any number of vertices, convex or not
+//
+//     var polygon = ltc_polygon_begin(surface, first_vertex);
+//     ltc_polygon_add(&polygon, surface, lobe, vertex);     // for each of the others
+//     let value = ltc_polygon_end(&polygon, surface, lobe, two_sided);
+//
+// Nothing is stored but sums and one point on each horizon. All points where a planar polygon
+// crosses a plane through the surface point lie on one straight line, so the pieces of the horizon
+// that close the cut polygon can all be measured from the first such point: forth to each point of
+// entry, back from each point of exit.
+// ---------------------------------------------------------------------------------------------
+
+/// Starts a polygon at its first vertex.
+fn ltc_polygon_begin(surface: LtcSurface, vertex: vec3<f32>) -> LtcPolygon {
+    let to_first = (vertex * LTC_HEADROOM) - (surface.position * LTC_HEADROOM);
+    var polygon: LtcPolygon;
+    polygon.first = vertex;
+    polygon.scale = 1.0 / max(ltc_extent(to_first), LTC_TINY);
+    polygon.previous = vertex;
+    polygon.facing = 0.0;
+    polygon.surface_crossing = vec3<f32>(0.0);
+    polygon.surface_crossed = 0.0;
+    polygon.surface_crossing_offset = vec3<f32>(0.0);
+    polygon.diffuse = 0.0;
+    polygon.lobe_crossing = vec3<f32>(0.0);
+    polygon.lobe_crossed = 0.0;
+    polygon.lobe_crossing_offset = vec3<f32>(0.0);
+    polygon.lobe_sum = vec3<f32>(0.0);
+    return polygon;
+}
+
+/// Adds the next vertex.
+fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, vertex: vec3<f32>) {
+    let origin = surface.position * LTC_HEADROOM;
+    let first_far = (*polygon).first * LTC_HEADROOM;
+    let a_far = (*polygon).previous * LTC_HEADROOM;
+    let b_far = vertex * LTC_HEADROOM;
+    // Lengths in units of the distance to the first vertex, but below 1e12 of anything.
+    let extent = max(ltc_extent(a_far - origin), ltc_extent(b_far - origin));
+    let scale = min((*polygon).scale, 1e12 / max(extent, 1e-25));
+    let reference = ltc_to_frame(surface, (first_far - origin) * scale);
+    let a = ltc_to_frame(surface, (a_far - origin) * scale);
+    let b = ltc_to_frame(surface, (b_far - origin) * scale);
+    let a_offset = ltc_to_frame(surface, (a_far - first_far) * scale);
+    let b_offset = ltc_to_frame(surface, (b_far - first_far) * scale);
+    (*polygon).facing += dot(cross(a_offset, b_offset), reference);
+    (*polygon).previous = vertex;
+
+    let a_up = a.z > 0.0;
+    let b_up = b.z > 0.0;
+    if (a_up | b_up) {
+        if (a_up & b_up) {
+            ltc_polygon_edge(polygon, lobe, reference, a, a_offset, b, b_offset);
+        } else {
+            // Measured from the end above, the crossing keeps the precision of the offsets.
+            let above = select(b, a, a_up);
+            let below = select(a, b, a_up);
+            let above_offset = select(b_offset, a_offset, a_up);
+            let below_offset = select(a_offset, b_offset, a_up);
+            let t = above.z / max(above.z - below.z, LTC_TINY);
+            let crossing = ltc_crossing(above, below);
+            let crossing_offset = above_offset + (below_offset - above_offset) * t;
+            if ((*polygon).surface_crossed > 0.0) {
+                let base = (*polygon).surface_crossing;
+                let base_offset = (*polygon).surface_crossing_offset;
+                ltc_polygon_edge(polygon, lobe, reference, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
+                    select(crossing, base, a_up), select(crossing_offset, base_offset, a_up));
+            } else {
+                (*polygon).surface_crossed = 1.0;
+                (*polygon).surface_crossing = crossing;
+                (*polygon).surface_crossing_offset = crossing_offset;
+            }
+            ltc_polygon_edge(polygon, lobe, reference, select(crossing, a, a_up), select(crossing_offset, a_offset, a_up),
+                select(b, crossing, a_up), select(b_offset, crossing_offset, a_up));
+        }
+    }
+}
+
+/// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added. Its
+/// error is that of ltc_quad, and grows with the root of the number of vertices.
+fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, two_sided: bool) -> vec3<f32> {
+    let first = (*polygon).first;
+    ltc_polygon_add(polygon, surface, lobe, first);
+    let front = (*polygon).facing < 0.0;
+    return ltc_value(lobe, (*polygon).diffuse * LTC_OVER_TWO_PI, (*polygon).lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
+}
+
+/// Adds one edge that lies above the surface to both integrals.
+fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) {
+    let direction = reference * inverseSqrt(max(dot(reference, reference), LTC_TINY));
+    let a_away = ltc_offset(reference, direction, a, a_offset);
+    let b_away = ltc_offset(reference, direction, b, b_offset);
+    (*polygon).diffuse += ltc_edge_about(direction, b_away, a_away).z;
+
+    let m = ltc_transform(lobe, reference);
+    let m_a = ltc_transform(lobe, a);
+    let m_b = ltc_transform(lobe, b);
+    let m_a_offset = ltc_transform(lobe, a_offset);
+    let m_b_offset = ltc_transform(lobe, b_offset);
+    let a_up = m_a.z > 0.0;
+    let b_up = m_b.z > 0.0;
+    if (a_up | b_up) {
+        if (a_up & b_up) {
+            ltc_polygon_lobe_edge(polygon, m, m_a, m_a_offset, m_b, m_b_offset);
+        } else {
+            let above = select(m_b, m_a, a_up);
+            let below = select(m_a, m_b, a_up);
+            let above_offset = select(m_b_offset, m_a_offset, a_up);
+            let below_offset = select(m_a_offset, m_b_offset, a_up);
+            let t = above.z / max(above.z - below.z, LTC_TINY);
+            let crossing = ltc_crossing(above, below);
+            let crossing_offset = above_offset + (below_offset - above_offset) * t;
+            if ((*polygon).lobe_crossed > 0.0) {
+                let base = (*polygon).lobe_crossing;
+                let base_offset = (*polygon).lobe_crossing_offset;
+                ltc_polygon_lobe_edge(polygon, m, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
+                    select(crossing, base, a_up), select(crossing_offset, base_offset, a_up));
+            } else {
+                (*polygon).lobe_crossed = 1.0;
+                (*polygon).lobe_crossing = crossing;
+                (*polygon).lobe_crossing_offset = crossing_offset;
+            }
+            ltc_polygon_lobe_edge(polygon, m, select(crossing, m_a, a_up), select(crossing_offset, m_a_offset, a_up),
+                select(m_b, crossing, a_up), select(m_b_offset, crossing_offset, a_up));
+        }
+    }
+}
+
+/// Adds one edge that lies above both horizons, in the lobe's space.
+fn ltc_polygon_lobe_edge(polygon: ptr<function, LtcPolygon>, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) {
+    let direction = reference * inverseSqrt(max(dot(reference, reference), LTC_TINY));
+    let a_away = ltc_offset(reference, direction, a, a_offset);
+    let b_away = ltc_offset(reference, direction, b, b_offset);
+    (*polygon).lobe_sum += ltc_edge_about(direction, b_away, a_away);
+}
