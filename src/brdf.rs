@@ -90,8 +90,7 @@ impl Brdf for Ggx {
 
     /// Samples the visible normals by the spherical-cap method (Dupuy and Benyoub 2023).
     fn sample(&self, view: DVec3, random: DVec2) -> DVec3 {
-        let stretched =
-            DVec3::new(self.alpha * view.x, self.alpha * view.y, view.z.max(1e-9)).normalize();
+        let stretched = DVec3::new(self.alpha * view.x, self.alpha * view.y, view.z.max(1e-9)).normalize();
         // The azimuth is measured from the plane of incidence, which makes the mirror symmetry in
         // `random.y` exact for a view in the xz-plane.
         let azimuth = 2.0 * PI * random.y;
@@ -99,9 +98,8 @@ impl Brdf for Ggx {
         let radius = (1.0 - z * z).max(0.0).sqrt();
         let cap = DVec3::new(radius * azimuth.cos(), radius * azimuth.sin(), z);
         let visible = cap + stretched;
-        let half =
-            DVec3::new(self.alpha * visible.x, self.alpha * visible.y, visible.z.max(0.0))
-                .normalize_or(DVec3::Z);
+        let half = DVec3::new(self.alpha * visible.x, self.alpha * visible.y, visible.z.max(0.0))
+            .normalize_or(DVec3::Z);
         2.0 * view.dot(half) * half - view
     }
 

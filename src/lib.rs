@@ -10,6 +10,8 @@ pub const TABLE_COMPATIBLE: &[u8] = include_bytes!("../table/ltc_compatible.bin"
 
 #[cfg(feature = "shade")]
 pub mod brdf;
+#[cfg(feature = "device")]
+pub mod device;
 #[cfg(feature = "bake")]
 pub mod fit;
 #[cfg(feature = "shade")]

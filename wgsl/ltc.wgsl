@@ -67,17 +67,21 @@ struct LtcSurface {
 
 /// One lobe: a linearly transformed cosine and the weights of the BRDF's two parts.
 struct LtcLobe {
-    /// Entries (x, y, z, w) of the inverse matrix, in the surface's frame:
+    /// Entries (x, y, z, w) of the inverse matrix in the surface's frame:
     /// rows (x, 0, z), (0, 1, 0), (y, 0, w).
     inverse: vec4<f32>,
+    /// First row of the matrix that leads from the caller's space to the lobe's.
+    axis_x: vec3<f32>,
     /// The BRDF's integral of f cos over the hemisphere, for F = 1.
     albedo: f32,
+    /// Second row of that matrix.
+    axis_y: vec3<f32>,
     /// The BRDF's integral of f cos (1 - v.h)^5 over the hemisphere.
     fresnel: f32,
-    /// Cosine between normal and view.
-    cos_view: f32,
-    /// Sine between normal and view.
-    sin_view: f32,
+    /// Third row of that matrix.
+    axis_z: vec3<f32>,
+    /// Share of the lobe's energy above the surface.
+    share: f32,
 }
 
 /// State of a polygon that is given vertex by vertex; read and written by the library alone.
@@ -182,12 +186,18 @@ fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcL
     let c = surface.cos_view;
     let s = surface.sin_view;
     let a = surface.alpha;
+    let m = vec4<f32>(c * c + a * shape.x, a * s * shape.y, s * (c + a * shape.z), a * shape.w);
     var lobe: LtcLobe;
-    lobe.inverse = vec4<f32>(c * c + a * shape.x, a * s * shape.y, s * (c + a * shape.z), a * shape.w);
+    lobe.inverse = m;
+    lobe.axis_x = surface.tangent * m.x + surface.normal * m.z;
     lobe.albedo = amplitude.x;
+    lobe.axis_y = surface.bitangent;
     lobe.fresnel = amplitude.y;
-    lobe.cos_view = c;
-    lobe.sin_view = s;
+    lobe.axis_z = surface.tangent * m.y + surface.normal * m.w;
+    // In the lobe's space the surface's half-space has the normal (-y, 0, x). The cosine hemisphere
+    // that it cuts projects to half a disk and half an ellipse: (1 + cos g) / 2 of the whole for an
+    // angle g between the two normals.
+    lobe.share = 0.5 + 0.5 * m.x * inverseSqrt(max(m.x * m.x + m.y * m.y, LTC_TINY));
     return lobe;
 }
 
@@ -200,14 +210,9 @@ fn ltc_lobe_from_table(surface: LtcSurface, table: texture_2d_array<f32>, table_
     return ltc_lobe(surface, shape, amplitude);
 }
 
-/// The inverse matrix of a lobe times `v`.
+/// `v`, a vector from the surface point, in the lobe's space.
 fn ltc_transform(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(lobe.inverse.x * v.x + lobe.inverse.z * v.z, v.y, lobe.inverse.y * v.x + lobe.inverse.w * v.z);
-}
-
-/// `v` in the frame of a surface.
-fn ltc_to_frame(surface: LtcSurface, v: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(dot(surface.tangent, v), dot(surface.bitangent, v), dot(surface.normal, v));
+    return vec3<f32>(dot(lobe.axis_x, v), dot(lobe.axis_y, v), dot(lobe.axis_z, v));
 }
 
 /// Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
@@ -224,40 +229,32 @@ fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_refl
 /// the direction: for a small light it is (1 - v.h)^5 of the specular part, v.h taken at the light;
 /// for a light that covers the whole lobe it is the table's average. The square of the coverage
 /// leads from one to the other.
-fn ltc_specular(lobe: LtcLobe, coverage: f32, toward: vec3<f32>) -> vec2<f32> {
+fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<f32>) -> vec2<f32> {
     // The matrix itself, up to the positive factor 1 / determinant.
     let m = lobe.inverse;
     let volume = m.x * m.w - m.y * m.z;
     let direction = vec3<f32>(m.w * toward.x - m.z * toward.z, volume * toward.y, m.x * toward.z - m.y * toward.x);
     let unit = ltc_direction(direction);
     // cos^2 of half the angle between view and light: the half vector's cosine, squared.
-    let half_cosine = clamp(0.5 + 0.5 * (lobe.sin_view * unit.x + lobe.cos_view * unit.z), 0.0, 1.0);
+    let half_cosine = clamp(0.5 + 0.5 * (surface.sin_view * unit.x + surface.cos_view * unit.z), 0.0, 1.0);
     let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
     let schlick = f * f * f * f * f;
     let whole = coverage * coverage;
     return coverage * vec2<f32>(lobe.albedo, lobe.albedo * schlick * (1.0 - whole) + lobe.fresnel * whole);
 }
 
-/// Share of a lobe's energy above the surface. In the lobe's space the surface's half-space has the
-/// normal (-y, 0, x); the cosine hemisphere that it cuts projects to half a disk and half an
-/// ellipse, (1 + cos g) / 2 of the whole for an angle g between the two normals.
-fn ltc_share_above(lobe: LtcLobe) -> f32 {
-    let m = lobe.inverse;
-    return 0.5 + 0.5 * m.x * inverseSqrt(max(m.x * m.x + m.y * m.y, LTC_TINY));
-}
-
 /// The value (diffuse, specular, fresnel) from the signed form factor over the surface's horizon
 /// and the signed vector form factor over both horizons in the lobe's space; `front` tells whether
 /// the light shows its emitting side.
-fn ltc_value(lobe: LtcLobe, form_factor: f32, vector: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
+fn ltc_value(surface: LtcSurface, lobe: LtcLobe, form_factor: f32, vector: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
     // A two-sided light is lit by the sign that the sum itself has: `front` may differ from it by
     // rounding where the light is seen edge-on.
     let emits = front | two_sided;
     let flipped = two_sided & vector.z < 0.0;
     let toward = select(vector, -vector, flipped);
     let diffuse = select(form_factor, abs(form_factor), two_sided);
-    let coverage = select(0.0, clamp(toward.z / ltc_share_above(lobe), 0.0, 1.0), emits);
-    let specular = ltc_specular(lobe, coverage, toward);
+    let coverage = select(0.0, clamp(toward.z / lobe.share, 0.0, 1.0), emits);
+    let specular = ltc_specular(surface, lobe, coverage, toward);
     return vec3<f32>(select(0.0, clamp(diffuse, 0.0, 1.0), emits), specular);
 }
 
@@ -290,8 +287,18 @@ fn ltc_edge(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
     return normal * select(1.0 + excess, obtuse, k > 1.0);
 }
 
-/// The edge integral of unit vectors a = reference + a_offset and b = reference + b_offset, less a
-/// part that vanishes over every closed polygon.
+/// The edge integral's signed length for an edge on the surface's horizon: the angle from `a` to `b`
+/// around `normal`. Its direction is known, and rounding cannot tilt it, however close to the
+/// surface point the edge passes.
+fn ltc_horizon_edge(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let integral = ltc_edge(a, b);
+    let squared = dot(integral, integral);
+    let angle = squared * inverseSqrt(max(squared, 1e-30));
+    return select(-angle, angle, dot(integral, normal) > 0.0);
+}
+
+/// The edge integral of unit vectors `a` and `b`, less a part that vanishes over every closed
+/// polygon. The offsets are a - reference and b - reference.
 ///
 /// Over a closed polygon the cross products of neighbours add up to those of their offsets from any
 /// fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
@@ -299,15 +306,17 @@ fn ltc_edge(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
 /// order of the light's angular size, its sum of that size squared. A unit vector's offset along the
 /// unit reference is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
 /// horizon as well. Exact for polygons of every size; nothing has to take over from anything.
-fn ltc_edge_about(reference: vec3<f32>, a_offset: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
-    let a = reference + a_offset;
-    let chord = b_offset - a_offset;
+fn ltc_edge_about(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
+    let a_squared = dot(a_offset, a_offset);
+    let b_squared = dot(b_offset, b_offset);
+    // Close to the reference the offsets hold the digits of the difference, far from it the vectors.
+    let chord = select(b - a, b_offset - a_offset, max(a_squared, b_squared) < 0.0625);
     let normal = cross(a, chord);
     let k = 0.5 * dot(chord, chord);
     let excess = ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
     let obtuse = LTC_PI * inverseSqrt(max(dot(normal, normal), 1e-30)) - (2.0 + excess);
     let along = dot(reference, cross(a_offset, b_offset));
-    let across = 0.5 * (a_offset * dot(b_offset, b_offset) - b_offset * dot(a_offset, a_offset));
+    let across = 0.5 * (a_offset * b_squared - b_offset * a_squared);
     return reference * along + cross(reference, across) + normal * select(excess, obtuse, k > 1.0);
 }
 
@@ -396,8 +405,11 @@ fn ltc_far_quad(a: vec3<f32>, side_b: vec3<f32>, side_c: vec3<f32>, side_d: vec3
     let c_offset = ltc_offset(a, reference, a + side_c, side_c);
     let d_offset = ltc_offset(a, reference, a + side_d, side_d);
     let a_offset = vec3<f32>(0.0);
-    return ltc_edge_about(reference, b_offset, a_offset) + ltc_edge_about(reference, c_offset, b_offset)
-        + ltc_edge_about(reference, d_offset, c_offset) + ltc_edge_about(reference, a_offset, d_offset);
+    let b = reference + b_offset;
+    let c = reference + c_offset;
+    let d = reference + d_offset;
+    return ltc_edge_about(reference, b, b_offset, reference, a_offset) + ltc_edge_about(reference, c, c_offset, b, b_offset)
+        + ltc_edge_about(reference, d, d_offset, c, c_offset) + ltc_edge_about(reference, reference, a_offset, d, d_offset);
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
@@ -407,6 +419,8 @@ fn ltc_far_quad(a: vec3<f32>, side_b: vec3<f32>, side_c: vec3<f32>, side_d: vec3
 /// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
 /// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
 /// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
+/// An edge whose ends are n times as far away as the edge itself may add 1e-7 n: so much do the
+/// coordinates' own digits leave open.
 fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
     let origin = surface.position * LTC_HEADROOM;
     let a_far = a * LTC_HEADROOM;
@@ -417,30 +431,27 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let extent = max(max(ltc_extent(a_full), ltc_extent(b_full)), max(ltc_extent(c_full), ltc_extent(d_full)));
     let scale = 1.0 / max(extent, LTC_TINY);
     // Differences of the vertices themselves: those of the vectors to the surface have lost digits.
-    let to_a = a_full * scale;
     let side_b = (b * LTC_HEADROOM - a_far) * scale;
     let side_c = (c * LTC_HEADROOM - a_far) * scale;
     let side_d = (d * LTC_HEADROOM - a_far) * scale;
-    let area = cross(side_c, side_d - side_b);
-    let front = dot(area, to_a) < 0.0;
+    let p_a = a_full * scale;
+    let front = dot(cross(side_c, side_d - side_b), p_a) < 0.0;
 
-    let p_a = ltc_to_frame(surface, to_a);
+    let a_height = dot(surface.normal, p_a);
     let size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
-    if (size_squared < 0.0625 * dot(to_a, to_a)) {
-        let e_b = ltc_to_frame(surface, side_b);
-        let e_c = ltc_to_frame(surface, side_c);
-        let e_d = ltc_to_frame(surface, side_d);
-        let lowest = p_a.z + min(min(0.0, e_b.z), min(e_c.z, e_d.z));
-        let highest = p_a.z + max(max(0.0, e_b.z), max(e_c.z, e_d.z));
-        if (highest <= 0.0) {
+    if (size_squared < 0.0625 * dot(p_a, p_a)) {
+        let b_rise = dot(surface.normal, side_b);
+        let c_rise = dot(surface.normal, side_c);
+        let d_rise = dot(surface.normal, side_d);
+        if (a_height + max(max(0.0, b_rise), max(c_rise, d_rise)) <= 0.0) {
             return vec3<f32>(0.0);
         }
-        if (lowest > 0.0) {
-            let near = ltc_far_quad(p_a, e_b, e_c, e_d);
+        if (a_height + min(min(0.0, b_rise), min(c_rise, d_rise)) > 0.0) {
+            let sum = dot(surface.normal, ltc_far_quad(p_a, side_b, side_c, side_d));
             let l_a = ltc_transform(lobe, p_a);
-            let l_b = ltc_transform(lobe, e_b);
-            let l_c = ltc_transform(lobe, e_c);
-            let l_d = ltc_transform(lobe, e_d);
+            let l_b = ltc_transform(lobe, side_b);
+            let l_c = ltc_transform(lobe, side_c);
+            let l_d = ltc_transform(lobe, side_d);
             let lobe_size = max(max(dot(l_b, l_b), dot(l_c, l_c)), dot(l_d, l_d));
             let lobe_lowest = l_a.z + min(min(0.0, l_b.z), min(l_c.z, l_d.z));
             var vector: vec3<f32>;
@@ -449,7 +460,7 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
             } else {
                 vector = ltc_pentagon(l_a, l_a + l_b, l_a + l_c, l_a + l_d, l_a + l_d);
             }
-            return ltc_value(lobe, near.z * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
+            return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
         }
         // A distant light on the horizon keeps its precision only in the streamed form.
         var polygon = ltc_polygon_begin(surface, a);
@@ -459,54 +470,63 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
         return ltc_polygon_end(&polygon, surface, lobe, two_sided);
     }
 
-    let p_b = ltc_to_frame(surface, b_full * scale);
-    let p_c = ltc_to_frame(surface, c_full * scale);
-    let p_d = ltc_to_frame(surface, d_full * scale);
-    let a_up = p_a.z > 0.0;
-    let b_up = p_b.z > 0.0;
-    let c_up = p_c.z > 0.0;
-    let d_up = p_d.z > 0.0;
+    let p_b = b_full * scale;
+    let p_c = c_full * scale;
+    let p_d = d_full * scale;
+    let heights = vec4<f32>(a_height, dot(surface.normal, p_b), dot(surface.normal, p_c), dot(surface.normal, p_d));
+    let a_up = heights.x > 0.0;
+    let b_up = heights.y > 0.0;
+    let c_up = heights.z > 0.0;
+    let d_up = heights.w > 0.0;
     if (!(a_up | b_up | c_up | d_up)) {
         return vec3<f32>(0.0);
     }
-    // Cut at the surface: turn the quad until its last vertex is the last one below, so that the
-    // cut quad is the pentagon of the first three, the exit and the entry.
-    let last_a = b_up & !a_up;
-    let last_b = c_up & !b_up;
-    let last_c = d_up & !c_up;
-    let half_turn = last_b | last_c;
-    let turn = last_a | last_c;
-    let h_a = select(p_a, p_c, half_turn);
-    let h_b = select(p_b, p_d, half_turn);
-    let h_c = select(p_c, p_a, half_turn);
-    let h_d = select(p_d, p_b, half_turn);
-    let q_a = select(h_a, h_b, turn);
-    let q_b = select(h_b, h_c, turn);
-    let q_c = select(h_c, h_d, turn);
-    let q_d = select(h_d, h_a, turn);
-    var v_b = q_b;
-    var v_c = q_c;
-    var v_d = q_d;
-    var v_e = q_d;
-    if (!(q_d.z > 0.0)) {
-        let up_b = q_b.z > 0.0;
-        let up_c = q_c.z > 0.0;
-        let leave = ltc_crossing(select(select(q_a, q_b, up_b), q_c, up_c), select(select(q_b, q_c, up_b), q_d, up_c));
+    var v_a = p_a;
+    var v_b = p_b;
+    var v_c = p_c;
+    var v_d = p_d;
+    var v_e = p_d;
+    if (!(a_up & b_up & c_up & d_up)) {
+        // Turn the quad until its last vertex is the last one below; the quad cut at the surface is
+        // then the pentagon of the first three vertices, the exit and the entry.
+        let last_a = b_up & !a_up;
+        let last_b = c_up & !b_up;
+        let last_c = d_up & !c_up;
+        let half_turn = last_b | last_c;
+        let turn = last_a | last_c;
+        let half_a = select(p_a, p_c, half_turn);
+        let half_b = select(p_b, p_d, half_turn);
+        let half_c = select(p_c, p_a, half_turn);
+        let half_d = select(p_d, p_b, half_turn);
+        let half_heights = select(heights, heights.zwxy, half_turn);
+        let q_a = select(half_a, half_b, turn);
+        let q_b = select(half_b, half_c, turn);
+        let q_c = select(half_c, half_d, turn);
+        let q_d = select(half_d, half_a, turn);
+        let h = select(half_heights, half_heights.yzwx, turn);
+        let up_b = h.y > 0.0;
+        let up_c = h.z > 0.0;
+        let leave_from = select(select(q_a, q_b, up_b), q_c, up_c);
+        let leave_to = select(select(q_b, q_c, up_b), q_d, up_c);
+        let leave_high = select(select(h.x, h.y, up_b), h.z, up_c);
+        let leave_low = select(select(h.y, h.z, up_b), h.w, up_c);
+        let leave = leave_from + (leave_to - leave_from) * (leave_high / max(leave_high - leave_low, LTC_TINY));
+        v_a = q_a;
         v_b = select(leave, q_b, up_b);
         v_c = select(leave, q_c, up_c);
         v_d = leave;
-        v_e = ltc_crossing(q_a, q_d);
+        v_e = q_a + (q_d - q_a) * (h.x / max(h.x - h.w, LTC_TINY));
     }
-    let a_unit = q_a * inverseSqrt(max(dot(q_a, q_a), LTC_TINY));
+    let a_unit = v_a * inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
     let b_unit = v_b * inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
     let c_unit = v_c * inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
     let d_unit = v_d * inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
     let e_unit = v_e * inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
-    let sum = ltc_edge(b_unit, a_unit).z + ltc_edge(c_unit, b_unit).z + ltc_edge(d_unit, c_unit).z
-        + ltc_edge(e_unit, d_unit).z + ltc_edge(a_unit, e_unit).z;
-    let vector = ltc_pentagon(ltc_transform(lobe, q_a), ltc_transform(lobe, v_b), ltc_transform(lobe, v_c),
+    let edges = ltc_edge(b_unit, a_unit) + ltc_edge(c_unit, b_unit) + ltc_edge(d_unit, c_unit) + ltc_edge(a_unit, e_unit);
+    let sum = dot(surface.normal, edges) + ltc_horizon_edge(e_unit, d_unit, surface.normal);
+    let vector = ltc_pentagon(ltc_transform(lobe, v_a), ltc_transform(lobe, v_b), ltc_transform(lobe, v_c),
         ltc_transform(lobe, v_d), ltc_transform(lobe, v_e));
-    return ltc_value(lobe, sum * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
+    return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -550,41 +570,44 @@ fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
     // Lengths in units of the distance to the first vertex, but below 1e12 of anything.
     let extent = max(ltc_extent(a_far - origin), ltc_extent(b_far - origin));
     let scale = min((*polygon).scale, 1e12 / max(extent, 1e-25));
-    let reference = ltc_to_frame(surface, (first_far - origin) * scale);
-    let a = ltc_to_frame(surface, (a_far - origin) * scale);
-    let b = ltc_to_frame(surface, (b_far - origin) * scale);
-    let a_offset = ltc_to_frame(surface, (a_far - first_far) * scale);
-    let b_offset = ltc_to_frame(surface, (b_far - first_far) * scale);
+    let reference = (first_far - origin) * scale;
+    let a = (a_far - origin) * scale;
+    let b = (b_far - origin) * scale;
+    let a_offset = (a_far - first_far) * scale;
+    let b_offset = (b_far - first_far) * scale;
     (*polygon).facing += dot(cross(a_offset, b_offset), reference);
     (*polygon).previous = vertex;
 
-    let a_up = a.z > 0.0;
-    let b_up = b.z > 0.0;
-    if (a_up | b_up) {
-        if (a_up & b_up) {
-            ltc_polygon_edge(polygon, lobe, reference, a, a_offset, b, b_offset);
+    // Heights of a distant light from that of the first vertex and the rise from there.
+    let height = dot(surface.normal, reference);
+    let near = max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < 0.0625 * dot(reference, reference);
+    let a_height = select(dot(surface.normal, a), height + dot(surface.normal, a_offset), near);
+    let b_height = select(dot(surface.normal, b), height + dot(surface.normal, b_offset), near);
+    let a_up = a_height > 0.0;
+    let b_up = b_height > 0.0;
+    if (a_up & b_up) {
+        ltc_polygon_edge(polygon, surface, lobe, reference, a, a_offset, b, b_offset, false);
+    } else if (a_up | b_up) {
+        let above = select(b, a, a_up);
+        let below = select(a, b, a_up);
+        let above_offset = select(b_offset, a_offset, a_up);
+        let below_offset = select(a_offset, b_offset, a_up);
+        let high = max(a_height, b_height);
+        let t = high / max(high - min(a_height, b_height), LTC_TINY);
+        let crossing = above + (below - above) * t;
+        let crossing_offset = above_offset + (below_offset - above_offset) * t;
+        if ((*polygon).surface_crossed > 0.0) {
+            let base = (*polygon).surface_crossing;
+            let base_offset = (*polygon).surface_crossing_offset;
+            ltc_polygon_edge(polygon, surface, lobe, reference, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
+                select(crossing, base, a_up), select(crossing_offset, base_offset, a_up), true);
         } else {
-            // Measured from the end above, the crossing keeps the precision of the offsets.
-            let above = select(b, a, a_up);
-            let below = select(a, b, a_up);
-            let above_offset = select(b_offset, a_offset, a_up);
-            let below_offset = select(a_offset, b_offset, a_up);
-            let t = above.z / max(above.z - below.z, LTC_TINY);
-            let crossing = ltc_crossing(above, below);
-            let crossing_offset = above_offset + (below_offset - above_offset) * t;
-            if ((*polygon).surface_crossed > 0.0) {
-                let base = (*polygon).surface_crossing;
-                let base_offset = (*polygon).surface_crossing_offset;
-                ltc_polygon_edge(polygon, lobe, reference, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
-                    select(crossing, base, a_up), select(crossing_offset, base_offset, a_up));
-            } else {
-                (*polygon).surface_crossed = 1.0;
-                (*polygon).surface_crossing = crossing;
-                (*polygon).surface_crossing_offset = crossing_offset;
-            }
-            ltc_polygon_edge(polygon, lobe, reference, select(crossing, a, a_up), select(crossing_offset, a_offset, a_up),
-                select(b, crossing, a_up), select(b_offset, crossing_offset, a_up));
+            (*polygon).surface_crossed = 1.0;
+            (*polygon).surface_crossing = crossing;
+            (*polygon).surface_crossing_offset = crossing_offset;
         }
+        ltc_polygon_edge(polygon, surface, lobe, reference, select(crossing, a, a_up), select(crossing_offset, a_offset, a_up),
+            select(b, crossing, a_up), select(b_offset, crossing_offset, a_up), false);
     }
 }
 
@@ -594,15 +617,22 @@ fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
     let first = (*polygon).first;
     ltc_polygon_add(polygon, surface, lobe, first);
     let front = (*polygon).facing < 0.0;
-    return ltc_value(lobe, (*polygon).diffuse * LTC_OVER_TWO_PI, (*polygon).lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
+    return ltc_value(surface, lobe, (*polygon).diffuse * LTC_OVER_TWO_PI, (*polygon).lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
 }
 
-/// Adds one edge that lies above the surface to both integrals.
-fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) {
-    let direction = reference * inverseSqrt(max(dot(reference, reference), LTC_TINY));
-    let a_away = ltc_offset(reference, direction, a, a_offset);
-    let b_away = ltc_offset(reference, direction, b, b_offset);
-    (*polygon).diffuse += ltc_edge_about(direction, b_away, a_away).z;
+/// Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
+fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, closing: bool) {
+    let integral = ltc_edge_from(reference, a, a_offset, b, b_offset);
+    let along = dot(surface.normal, integral);
+    (*polygon).diffuse += along;
+    let reach = max(dot(a_offset, a_offset), dot(b_offset, b_offset));
+    if (closing & (reach >= 0.0625 * dot(reference, reference))) {
+        // What rounding tilts away from the normal of an edge on the horizon, see ltc_horizon_edge.
+        let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
+        let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
+        let upright = ltc_edge(b_unit, a_unit);
+        (*polygon).diffuse += ltc_horizon_edge(b_unit, a_unit, surface.normal) - dot(surface.normal, upright);
+    }
 
     let m = ltc_transform(lobe, reference);
     let m_a = ltc_transform(lobe, a);
@@ -611,37 +641,38 @@ fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, lobe: LtcLobe, reference
     let m_b_offset = ltc_transform(lobe, b_offset);
     let a_up = m_a.z > 0.0;
     let b_up = m_b.z > 0.0;
-    if (a_up | b_up) {
-        if (a_up & b_up) {
-            ltc_polygon_lobe_edge(polygon, m, m_a, m_a_offset, m_b, m_b_offset);
+    if (a_up & b_up) {
+        (*polygon).lobe_sum += ltc_edge_from(m, m_a, m_a_offset, m_b, m_b_offset);
+    } else if (a_up | b_up) {
+        let above = select(m_b, m_a, a_up);
+        let below = select(m_a, m_b, a_up);
+        let above_offset = select(m_b_offset, m_a_offset, a_up);
+        let below_offset = select(m_a_offset, m_b_offset, a_up);
+        let t = above.z / max(above.z - below.z, LTC_TINY);
+        let crossing = ltc_crossing(above, below);
+        let crossing_offset = above_offset + (below_offset - above_offset) * t;
+        if ((*polygon).lobe_crossed > 0.0) {
+            let base = (*polygon).lobe_crossing;
+            let base_offset = (*polygon).lobe_crossing_offset;
+            (*polygon).lobe_sum += ltc_edge_from(m, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
+                select(crossing, base, a_up), select(crossing_offset, base_offset, a_up));
         } else {
-            let above = select(m_b, m_a, a_up);
-            let below = select(m_a, m_b, a_up);
-            let above_offset = select(m_b_offset, m_a_offset, a_up);
-            let below_offset = select(m_a_offset, m_b_offset, a_up);
-            let t = above.z / max(above.z - below.z, LTC_TINY);
-            let crossing = ltc_crossing(above, below);
-            let crossing_offset = above_offset + (below_offset - above_offset) * t;
-            if ((*polygon).lobe_crossed > 0.0) {
-                let base = (*polygon).lobe_crossing;
-                let base_offset = (*polygon).lobe_crossing_offset;
-                ltc_polygon_lobe_edge(polygon, m, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
-                    select(crossing, base, a_up), select(crossing_offset, base_offset, a_up));
-            } else {
-                (*polygon).lobe_crossed = 1.0;
-                (*polygon).lobe_crossing = crossing;
-                (*polygon).lobe_crossing_offset = crossing_offset;
-            }
-            ltc_polygon_lobe_edge(polygon, m, select(crossing, m_a, a_up), select(crossing_offset, m_a_offset, a_up),
-                select(m_b, crossing, a_up), select(m_b_offset, crossing_offset, a_up));
+            (*polygon).lobe_crossed = 1.0;
+            (*polygon).lobe_crossing = crossing;
+            (*polygon).lobe_crossing_offset = crossing_offset;
         }
+        (*polygon).lobe_sum += ltc_edge_from(m, select(crossing, m_a, a_up), select(crossing_offset, m_a_offset, a_up),
+            select(m_b, crossing, a_up), select(m_b_offset, crossing_offset, a_up));
     }
 }
 
-/// Adds one edge that lies above both horizons, in the lobe's space.
-fn ltc_polygon_lobe_edge(polygon: ptr<function, LtcPolygon>, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) {
-    let direction = reference * inverseSqrt(max(dot(reference, reference), LTC_TINY));
-    let a_away = ltc_offset(reference, direction, a, a_offset);
-    let b_away = ltc_offset(reference, direction, b, b_offset);
-    (*polygon).lobe_sum += ltc_edge_about(direction, b_away, a_away);
+/// ltc_edge_about for points and their offsets from `origin`, walked from `b` to `a` so that light
+/// counts positive.
+fn ltc_edge_from(origin: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
+    let reference = origin * inverseSqrt(max(dot(origin, origin), LTC_TINY));
+    let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
+    let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
+    let a_away = ltc_offset(origin, reference, a, a_offset);
+    let b_away = ltc_offset(origin, reference, b, b_offset);
+    return ltc_edge_about(reference, b_unit, b_away, a_unit, a_away);
 }

@@ -13,9 +13,8 @@ pub fn fit_angle_excess(degree: usize) -> (Vec<f64>, f64) {
         let fitted = coefficients.iter().rev().fold(0.0, |sum, q| sum * k + q);
         weight(k) * (fitted - angle_excess(k) / k)
     };
-    let grid: Vec<f64> = (1..=20_000)
-        .map(|i| 0.5 - 0.5 * (core::f64::consts::PI * f64::from(i) / 20_000.0).cos())
-        .collect();
+    let grid: Vec<f64> =
+        (1..=20_000).map(|i| 0.5 - 0.5 * (core::f64::consts::PI * f64::from(i) / 20_000.0).cos()).collect();
     let mut points: Vec<f64> = (0..unknowns)
         .map(|i| {
             let position = (i as f64 + 0.5) / unknowns as f64;
@@ -48,7 +47,11 @@ pub fn fit_angle_excess(degree: usize) -> (Vec<f64>, f64) {
         while extrema.len() > unknowns {
             let first = extrema[0].1.abs();
             let last = extrema[extrema.len() - 1].1.abs();
-            if first < last { extrema.remove(0); } else { extrema.pop(); }
+            if first < last {
+                extrema.remove(0);
+            } else {
+                extrema.pop();
+            }
         }
         if extrema.len() < unknowns {
             break;

@@ -48,10 +48,9 @@ impl Layout {
     pub(crate) fn affine(self, alpha: f64, cosine: f64) -> ([f64; 4], [f64; 4]) {
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         match self {
-            Self::Native => (
-                [cosine * cosine, 0.0, sine * cosine, 0.0],
-                [alpha, alpha * sine, alpha * sine, alpha],
-            ),
+            Self::Native => {
+                ([cosine * cosine, 0.0, sine * cosine, 0.0], [alpha, alpha * sine, alpha * sine, alpha])
+            }
             Self::Compatible => ([0.0; 4], [1.0; 4]),
         }
     }

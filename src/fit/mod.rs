@@ -135,8 +135,7 @@ pub fn bake(family: &dyn Family, settings: Settings, progress: &(dyn Fn(f64) + S
                 let row = if layout == Layout::Native { size - 1 - step } else { step };
                 let cosine = layout.cosine(row as f64 / last);
                 let target = Target::new(brdf.as_ref(), cosine, nodes);
-                let lobe =
-                    target.fit(decode(Layout::Native, &start, alpha, cosine), horizon, 60);
+                let lobe = target.fit(decode(Layout::Native, &start, alpha, cosine), horizon, 60);
                 start = encode(Layout::Native, &lobe, alpha, cosine);
                 texels.push((
                     Texel {

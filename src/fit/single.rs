@@ -63,18 +63,21 @@ impl Target {
         };
         for i in 0..radial {
             for j in 0..angular {
-                add(brdf.sample(view, DVec2::new(
-                    (i as f64 + 0.5) / radial as f64,
-                    (j as f64 + 0.5) / (2 * angular) as f64,
-                )));
+                add(brdf.sample(
+                    view,
+                    DVec2::new((i as f64 + 0.5) / radial as f64, (j as f64 + 0.5) / (2 * angular) as f64),
+                ));
             }
         }
         for i in 0..radial_cosine {
             for j in 0..angular_cosine {
-                add(crate::brdf::Lambert.sample(view, DVec2::new(
-                    (i as f64 + 0.5) / radial_cosine as f64,
-                    (j as f64 + 0.5) / (2 * angular_cosine) as f64,
-                )));
+                add(crate::brdf::Lambert.sample(
+                    view,
+                    DVec2::new(
+                        (i as f64 + 0.5) / radial_cosine as f64,
+                        (j as f64 + 0.5) / (2 * angular_cosine) as f64,
+                    ),
+                ));
             }
         }
         target
@@ -106,12 +109,8 @@ impl Target {
             Horizon::Uncut => (1.0, 0.0, 0.0),
         };
         let scale = self.albedo * det / (PI * share);
-        let constant = [
-            lobe.w / det - share_x / share,
-            -lobe.z / det - share_y / share,
-            -lobe.y / det,
-            lobe.x / det,
-        ];
+        let constant =
+            [lobe.w / det - share_x / share, -lobe.z / det - share_y / share, -lobe.y / det, lobe.x / det];
         let mut normal = Normal::default();
         for node in &self.nodes {
             let qx = lobe.x * node.x + lobe.z * node.z;
@@ -162,12 +161,8 @@ impl Target {
                 row[i] += 1e-300;
             }
             let step = solve(system, normal.gradient);
-            let next = Lobe {
-                x: lobe.x - step[0],
-                y: lobe.y - step[1],
-                z: lobe.z - step[2],
-                w: lobe.w - step[3],
-            };
+            let next =
+                Lobe { x: lobe.x - step[0], y: lobe.y - step[1], z: lobe.z - step[2], w: lobe.w - step[3] };
             let valid = next.x > 0.0 && next.w > 0.0 && next.determinant() > 0.0;
             let trial = if valid { Some(self.normal(&next, horizon)) } else { None };
             match trial {

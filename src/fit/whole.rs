@@ -31,11 +31,7 @@ struct Quadratic {
 
 type Field = Vec<[f64; 4]>;
 
-pub(super) fn refine(
-    fitted: &mut Fitted,
-    columns: &[Vec<(Texel, Target)>],
-    between: &[Vec<Target>],
-) {
+pub(super) fn refine(fitted: &mut Fitted, columns: &[Vec<(Texel, Target)>], between: &[Vec<Target>]) {
     let Settings { size, layout, .. } = fitted.settings;
     let last = (size - 1) as f64;
     let mut samples = Vec::with_capacity(2 * size * size);
@@ -120,11 +116,7 @@ fn quadratics(fitted: &Fitted, samples: &[Sample], field: &[[f64; 4]]) -> Vec<Qu
             let parameters = interpolate(sample, field);
             let lobe = decode(layout, &parameters, sample.alpha, sample.cosine);
             if lobe.determinant() <= 0.0 || lobe.x <= 0.0 || lobe.w <= 0.0 {
-                return Quadratic {
-                    gradient: [0.0; 4],
-                    hessian: [[0.0; 4]; 4],
-                    loss: f64::INFINITY,
-                };
+                return Quadratic { gradient: [0.0; 4], hessian: [[0.0; 4]; 4], loss: f64::INFINITY };
             }
             let Normal { loss, gradient, hessian } = sample.target.normal(&lobe, horizon);
             let (_, scale) = layout.affine(sample.alpha, sample.cosine);
@@ -154,9 +146,8 @@ fn solve(samples: &[Sample], models: &[Quadratic], size: usize) -> Field {
             }
         }
     }
-    let mean: [f64; 4] = core::array::from_fn(|k| {
-        SMOOTHNESS * diagonal.iter().map(|d| d[k]).sum::<f64>() / count as f64
-    });
+    let mean: [f64; 4] =
+        core::array::from_fn(|k| SMOOTHNESS * diagonal.iter().map(|d| d[k]).sum::<f64>() / count as f64);
     for entry in &mut diagonal {
         for k in 0..4 {
             entry[k] += 6.0 * mean[k];
@@ -166,8 +157,7 @@ fn solve(samples: &[Sample], models: &[Quadratic], size: usize) -> Field {
         let mut y = vec![[0.0; 4]; count];
         for (sample, model) in samples.iter().zip(models) {
             let p = interpolate(sample, x);
-            let h: [f64; 4] =
-                core::array::from_fn(|i| (0..4).map(|j| model.hessian[i][j] * p[j]).sum());
+            let h: [f64; 4] = core::array::from_fn(|i| (0..4).map(|j| model.hessian[i][j] * p[j]).sum());
             for corner in 0..4 {
                 for k in 0..4 {
                     y[sample.corners[corner]][k] += sample.weights[corner] * h[k];
@@ -185,8 +175,7 @@ fn add_smoothness(x: &Field, y: &mut Field, weight: &[f64; 4], size: usize) {
         for i in 1..size - 1 {
             let middle = first + i * stride;
             for k in 0..4 {
-                let second =
-                    weight[k] * (x[middle - stride][k] - 2.0 * x[middle][k] + x[middle + stride][k]);
+                let second = weight[k] * (x[middle - stride][k] - 2.0 * x[middle][k] + x[middle + stride][k]);
                 y[middle - stride][k] += second;
                 y[middle][k] -= 2.0 * second;
                 y[middle + stride][k] += second;
@@ -199,11 +188,7 @@ fn add_smoothness(x: &Field, y: &mut Field, weight: &[f64; 4], size: usize) {
     }
 }
 
-fn conjugate_gradients(
-    apply: impl Fn(&Field) -> Field,
-    right: Field,
-    diagonal: &Field,
-) -> Field {
+fn conjugate_gradients(apply: impl Fn(&Field) -> Field, right: Field, diagonal: &Field) -> Field {
     let dot = |a: &Field, b: &Field| -> f64 {
         a.iter().zip(b).map(|(a, b)| (0..4).map(|k| a[k] * b[k]).sum::<f64>()).sum()
     };
@@ -246,8 +231,7 @@ fn conjugate_gradients(
 
 /// The least-squares fit of interpolated albedo and Schlick part to their values at all samples.
 fn fit_amplitudes(fitted: &Fitted, samples: &[Sample]) -> Field {
-    let start: Field =
-        fitted.texels.iter().map(|texel| [texel.albedo, texel.fresnel, 0.0, 0.0]).collect();
+    let start: Field = fitted.texels.iter().map(|texel| [texel.albedo, texel.fresnel, 0.0, 0.0]).collect();
     let models: Vec<Quadratic> = samples
         .iter()
         .map(|sample| {

@@ -25,12 +25,11 @@ mod surface;
 
 pub use polygon::{LtcPolygon, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end};
 pub use quad::{
-    ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_far_quad, ltc_offset,
+    ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_far_quad, ltc_horizon_edge, ltc_offset,
     ltc_pentagon, ltc_quad,
 };
 pub use real::{Real, Vector, angle_excess};
 pub use surface::{
-    LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent,
-    ltc_lobe, ltc_reflectance, ltc_share_above, ltc_specular, ltc_surface,
-    ltc_table_coordinates, ltc_to_frame, ltc_transform, ltc_value,
+    LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
+    ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates, ltc_transform, ltc_value,
 };

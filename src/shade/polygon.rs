@@ -1,10 +1,9 @@
 //! Polygons of any number of vertices, convex or not, vertex by vertex.
 
-use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_offset};
+use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge, ltc_edge_about, ltc_horizon_edge, ltc_offset};
 use super::real::{Real, Vector};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_to_frame,
-    ltc_transform, ltc_value, unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_value, unit,
 };
 
 /// State of a polygon that is given vertex by vertex.
@@ -31,10 +30,6 @@ struct Point<R: Real> {
 impl<R: Real> Point<R> {
     fn transform(self, lobe: &LtcLobe<R>) -> Self {
         Self { at: ltc_transform(lobe, self.at), offset: ltc_transform(lobe, self.offset) }
-    }
-
-    fn is_up(&self) -> bool {
-        self.at.z() > constant(0.0)
     }
 }
 
@@ -68,17 +63,25 @@ pub fn ltc_polygon_add<R: Real>(
     let (a, b) = (polygon.previous * headroom, vertex * headroom);
     let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
     let scale = polygon.scale.min(constant::<R>(1e12) / extent.max(constant(1e-25)));
-    let place = |v: R::Vec3| Point::<R> {
-        at: ltc_to_frame(surface, (v - origin) * scale),
-        offset: ltc_to_frame(surface, (v - first) * scale),
-    };
+    let place = |v: R::Vec3| Point::<R> { at: (v - origin) * scale, offset: (v - first) * scale };
     let reference = place(first).at;
     let (a, b) = (place(a), place(b));
     polygon.facing += a.offset.cross(b.offset).dot(reference);
     polygon.previous = vertex;
-    let mut crossing = polygon.surface_crossing;
-    cut(a, b, &mut crossing, &mut |a, b| ltc_polygon_edge(polygon, lobe, reference, a, b));
-    polygon.surface_crossing = crossing;
+
+    let normal = surface.normal;
+    let height = normal.dot(reference);
+    let reach = a.offset.dot(a.offset).max(b.offset.dot(b.offset));
+    let near = reach < constant::<R>(0.0625) * reference.dot(reference);
+    let [a_height, b_height] =
+        [a, b].map(|p| if near { height + normal.dot(p.offset) } else { normal.dot(p.at) });
+    let edges = cut((a, a_height), (b, b_height), &mut polygon.surface_crossing, |above, below, t| Point {
+        at: above.at + (below.at - above.at) * t,
+        offset: above.offset + (below.offset - above.offset) * t,
+    });
+    for (edge, closing) in edges.into_iter().flatten() {
+        ltc_polygon_edge(polygon, surface, lobe, reference, edge, closing);
+    }
 }
 
 /// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
@@ -92,6 +95,7 @@ pub fn ltc_polygon_end<R: Real>(
     ltc_polygon_add(polygon, surface, lobe, first);
     let over_two_pi: R = constant(OVER_TWO_PI);
     ltc_value(
+        surface,
         lobe,
         polygon.diffuse * over_two_pi,
         polygon.lobe_sum * over_two_pi,
@@ -100,57 +104,73 @@ pub fn ltc_polygon_end<R: Real>(
     )
 }
 
-/// Hands the part of an edge above z = 0 to `add`, and the piece of the plane that closes the cut
-/// polygon from the first crossing to this one.
+/// A directed edge.
+type Edge<R> = (Point<R>, Point<R>);
+
+/// The part of an edge from `a` to `b`, given with their heights, that lies above a plane, and
+/// before it the piece of the plane that closes the cut polygon, from its first crossing to this
+/// one. The flag marks the latter.
 fn cut<R: Real>(
-    a: Point<R>,
-    b: Point<R>,
+    (a, a_height): (Point<R>, R),
+    (b, b_height): (Point<R>, R),
     first_crossing: &mut Option<Point<R>>,
-    add: &mut dyn FnMut(Point<R>, Point<R>),
-) {
-    if !(a.is_up() | b.is_up()) {
-        return;
+    cross: impl Fn(Point<R>, Point<R>, R) -> Point<R>,
+) -> [Option<(Edge<R>, bool)>; 2] {
+    let zero: R = constant(0.0);
+    let (a_up, b_up) = (a_height > zero, b_height > zero);
+    if a_up & b_up {
+        return [Some(((a, b), false)), None];
     }
-    if a.is_up() & b.is_up() {
-        add(a, b);
-        return;
+    if !(a_up | b_up) {
+        return [None, None];
     }
-    let (above, below) = if a.is_up() { (a, b) } else { (b, a) };
-    let height = above.at.z();
-    let t = height / (height - below.at.z()).max(constant(LTC_TINY));
-    let crossing = Point {
-        at: ltc_crossing::<R>(above.at, below.at),
-        offset: above.offset + (below.offset - above.offset) * t,
+    let (above, below) = if a_up { (a, b) } else { (b, a) };
+    let high = a_height.max(b_height);
+    let t = high / (high - a_height.min(b_height)).max(constant(LTC_TINY));
+    let crossing = cross(above, below, t);
+    let closing = match *first_crossing {
+        Some(base) => Some((if a_up { (crossing, base) } else { (base, crossing) }, true)),
+        None => {
+            *first_crossing = Some(crossing);
+            None
+        }
     };
-    match *first_crossing {
-        Some(base) if a.is_up() => add(crossing, base),
-        Some(base) => add(base, crossing),
-        None => *first_crossing = Some(crossing),
-    }
-    if a.is_up() { add(a, crossing) } else { add(crossing, b) }
+    [closing, Some((if a_up { (a, crossing) } else { (crossing, b) }, false))]
 }
 
-/// Adds one edge that lies above the surface to both integrals.
+/// Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
 fn ltc_polygon_edge<R: Real>(
     polygon: &mut LtcPolygon<R>,
+    surface: &LtcSurface<R>,
     lobe: &LtcLobe<R>,
     reference: R::Vec3,
-    a: Point<R>,
-    b: Point<R>,
+    (a, b): Edge<R>,
+    closing: bool,
 ) {
-    polygon.diffuse += edge_about(reference, a, b).z();
+    polygon.diffuse += surface.normal.dot(ltc_edge_from(reference, (a, b)));
+    let reach = a.offset.dot(a.offset).max(b.offset.dot(b.offset));
+    if closing & (reach >= constant::<R>(0.0625) * reference.dot(reference)) {
+        let (a_unit, b_unit) = (unit::<R>(a.at), unit::<R>(b.at));
+        let upright = ltc_edge::<R>(b_unit, a_unit);
+        polygon.diffuse +=
+            ltc_horizon_edge::<R>(b_unit, a_unit, surface.normal) - surface.normal.dot(upright);
+    }
     let reference = ltc_transform(lobe, reference);
     let (a, b) = (a.transform(lobe), b.transform(lobe));
-    let mut crossing = polygon.lobe_crossing;
-    cut(a, b, &mut crossing, &mut |a, b| {
-        polygon.lobe_sum = polygon.lobe_sum + edge_about(reference, a, b);
+    let edges = cut((a, a.at.z()), (b, b.at.z()), &mut polygon.lobe_crossing, |above, below, t| Point {
+        at: ltc_crossing::<R>(above.at, below.at),
+        offset: above.offset + (below.offset - above.offset) * t,
     });
-    polygon.lobe_crossing = crossing;
+    for (edge, _) in edges.into_iter().flatten() {
+        polygon.lobe_sum = polygon.lobe_sum + ltc_edge_from(reference, edge);
+    }
 }
 
-fn edge_about<R: Real>(reference: R::Vec3, a: Point<R>, b: Point<R>) -> R::Vec3 {
-    let direction = unit::<R>(reference);
-    let a_away = ltc_offset::<R>(reference, direction, a.at, a.offset);
-    let b_away = ltc_offset::<R>(reference, direction, b.at, b.offset);
-    ltc_edge_about::<R>(direction, b_away, a_away)
+/// [`ltc_edge_about`](super::ltc_edge_about) for points and their offsets from `origin`.
+fn ltc_edge_from<R: Real>(origin: R::Vec3, (a, b): Edge<R>) -> R::Vec3 {
+    let reference = unit::<R>(origin);
+    let (a_unit, b_unit) = (unit::<R>(a.at), unit::<R>(b.at));
+    let a_away = ltc_offset::<R>(origin, reference, a.at, a.offset);
+    let b_away = ltc_offset::<R>(origin, reference, b.at, b.offset);
+    ltc_edge_about::<R>(reference, b_unit, b_away, a_unit, a_away)
 }

@@ -38,14 +38,18 @@ pub struct LtcSurface<R: Real> {
 pub struct LtcLobe<R: Real> {
     /// Entries (x, y, z, w) of the inverse matrix, rows (x, 0, z), (0, 1, 0), (y, 0, w).
     pub inverse: [R; 4],
+    /// First row of the matrix that leads from the caller's space to the lobe's.
+    pub axis_x: R::Vec3,
     /// ∫ f·cos over the hemisphere.
     pub albedo: R,
+    /// Second row of that matrix.
+    pub axis_y: R::Vec3,
     /// ∫ f·cos·(1 − v·h)⁵ over the hemisphere.
     pub fresnel: R,
-    /// Cosine between normal and view.
-    pub cos_view: R,
-    /// Sine between normal and view.
-    pub sin_view: R,
+    /// Third row of that matrix.
+    pub axis_z: R::Vec3,
+    /// Share of the lobe's energy above the surface.
+    pub share: R,
 }
 
 pub(super) fn constant<R: Real>(value: f64) -> R {
@@ -109,48 +113,50 @@ pub fn ltc_surface<R: Real>(
 /// Texture coordinates of a surface in a table of `table_size` by `table_size` texels.
 pub fn ltc_table_coordinates<R: Real>(surface: &LtcSurface<R>, table_size: R) -> R::Vec2 {
     let root = surface.cos_view * surface.cos_view.max(constant(1e-20)).inverse_sqrt();
-    let coordinate =
-        |c: R| (c * (table_size - constant(1.0)) + constant(0.5)) / table_size;
+    let coordinate = |c: R| (c * (table_size - constant(1.0)) + constant(0.5)) / table_size;
     [coordinate(surface.roughness), coordinate(root)].into()
 }
 
 /// The lobe that two texels of the table describe.
-pub fn ltc_lobe<R: Real>(
-    surface: &LtcSurface<R>,
-    shape: R::Vec4,
-    amplitude: R::Vec4,
-) -> LtcLobe<R> {
+pub fn ltc_lobe<R: Real>(surface: &LtcSurface<R>, shape: R::Vec4, amplitude: R::Vec4) -> LtcLobe<R> {
     let (c, s, a) = (surface.cos_view, surface.sin_view, surface.alpha);
     let [x, y, z, w] = shape.into();
     let [albedo, fresnel, ..] = amplitude.into();
+    let m = [c * c + a * x, a * s * y, s * (c + a * z), a * w];
+    let half: R = constant(0.5);
     LtcLobe {
-        inverse: [c * c + a * x, a * s * y, s * (c + a * z), a * w],
+        inverse: m,
+        axis_x: surface.tangent * m[0] + surface.normal * m[2],
         albedo,
+        axis_y: surface.bitangent,
         fresnel,
-        cos_view: c,
-        sin_view: s,
+        axis_z: surface.tangent * m[1] + surface.normal * m[3],
+        share: half + half * m[0] * (m[0] * m[0] + m[1] * m[1]).max(constant(LTC_TINY)).inverse_sqrt(),
     }
 }
 
-/// The inverse matrix of a lobe times `v`.
+/// `v`, a vector from the surface point, in the lobe's space.
 pub fn ltc_transform<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
-    let [x, y, z, w] = lobe.inverse;
-    R::Vec3::new(x * v.x() + z * v.z(), v.y(), y * v.x() + w * v.z())
-}
-
-/// `v` in the frame of a surface.
-pub fn ltc_to_frame<R: Real>(surface: &LtcSurface<R>, v: R::Vec3) -> R::Vec3 {
-    R::Vec3::new(surface.tangent.dot(v), surface.bitangent.dot(v), surface.normal.dot(v))
+    R::Vec3::new(lobe.axis_x.dot(v), lobe.axis_y.dot(v), lobe.axis_z.dot(v))
 }
 
 /// Reflected radiance from the value (diffuse, specular, fresnel) of a light.
-pub fn ltc_reflectance<R: Real>(value: R::Vec3, f0: R::Vec3, f90: R::Vec3) -> R::Vec3 {
-    f0 * (value.y() - value.z()) + f90 * value.z()
+pub fn ltc_reflectance<R: Real>(
+    value: R::Vec3,
+    normal_reflectance: R::Vec3,
+    grazing_reflectance: R::Vec3,
+) -> R::Vec3 {
+    normal_reflectance * (value.y() - value.z()) + grazing_reflectance * value.z()
 }
 
 /// The parts (specular, fresnel) of a light's value from the `coverage` of a lobe and the mean
 /// direction `toward` the light in the lobe's space.
-pub fn ltc_specular<R: Real>(lobe: &LtcLobe<R>, coverage: R, toward: R::Vec3) -> R::Vec2 {
+pub fn ltc_specular<R: Real>(
+    surface: &LtcSurface<R>,
+    lobe: &LtcLobe<R>,
+    coverage: R,
+    toward: R::Vec3,
+) -> R::Vec2 {
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
     let [x, y, z, w] = lobe.inverse;
     let determinant = x * w - y * z;
@@ -160,27 +166,17 @@ pub fn ltc_specular<R: Real>(lobe: &LtcLobe<R>, coverage: R, toward: R::Vec3) ->
         x * toward.z() - y * toward.x(),
     );
     let unit = ltc_direction::<R>(direction);
-    let half_cosine = (half + half * (lobe.sin_view * unit.x() + lobe.cos_view * unit.z()))
-        .clamp(zero, one);
+    let half_cosine =
+        (half + half * (surface.sin_view * unit.x() + surface.cos_view * unit.z())).clamp(zero, one);
     let f = one - half_cosine * half_cosine.max(constant(1e-20)).inverse_sqrt();
     let schlick = f * f * f * f * f;
     let whole = coverage * coverage;
-    [
-        coverage * lobe.albedo,
-        coverage * (lobe.albedo * schlick * (one - whole) + lobe.fresnel * whole),
-    ]
-    .into()
-}
-
-/// Share of a lobe's energy above the surface.
-pub fn ltc_share_above<R: Real>(lobe: &LtcLobe<R>) -> R {
-    let [x, y, ..] = lobe.inverse;
-    let half: R = constant(0.5);
-    half + half * x * (x * x + y * y).max(constant(LTC_TINY)).inverse_sqrt()
+    [coverage * lobe.albedo, coverage * (lobe.albedo * schlick * (one - whole) + lobe.fresnel * whole)].into()
 }
 
 /// The value (diffuse, specular, fresnel) from the signed form factors over the horizons.
 pub fn ltc_value<R: Real>(
+    surface: &LtcSurface<R>,
     lobe: &LtcLobe<R>,
     form_factor: R,
     vector: R::Vec3,
@@ -192,8 +188,7 @@ pub fn ltc_value<R: Real>(
     let flipped = two_sided & (vector.z() < zero);
     let toward = if flipped { -vector } else { vector };
     let diffuse = if two_sided { form_factor.abs() } else { form_factor };
-    let coverage =
-        if emits { (toward.z() / ltc_share_above(lobe)).clamp(zero, one) } else { zero };
-    let [specular, fresnel] = ltc_specular(lobe, coverage, toward).into();
+    let coverage = if emits { (toward.z() / lobe.share).clamp(zero, one) } else { zero };
+    let [specular, fresnel] = ltc_specular(surface, lobe, coverage, toward).into();
     R::Vec3::new(if emits { diffuse.clamp(zero, one) } else { zero }, specular, fresnel)
 }

@@ -76,8 +76,7 @@ fn dds(table: &Table) -> Result<Vec<u8>, ContainerError> {
 /// KTX 2.0 by its specification (Khronos, sections 3 and 4): identifier, header, index, one level,
 /// data format descriptor, level data. No crate writes it for an uncompressed array.
 fn ktx(table: &Table) -> Vec<u8> {
-    const IDENTIFIER: [u8; 12] =
-        [0xAB, b'K', b'T', b'X', b' ', b'2', b'0', 0xBB, b'\r', b'\n', 0x1A, b'\n'];
+    const IDENTIFIER: [u8; 12] = [0xAB, b'K', b'T', b'X', b' ', b'2', b'0', 0xBB, b'\r', b'\n', 0x1A, b'\n'];
     const VK_FORMAT_R16G16B16A16_SFLOAT: u32 = 97;
     const HEADER_LENGTH: u32 = 80;
     const LEVEL_INDEX_LENGTH: u32 = 24;

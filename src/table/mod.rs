@@ -48,10 +48,8 @@ impl core::error::Error for TableError {}
 impl Default for Table {
     fn default() -> Self {
         // The embedded file is compared with a fresh bake by the tests.
-        Self::from_bytes(crate::TABLE_SIZE, crate::TABLE_NATIVE).unwrap_or(Self {
-            size: 0,
-            texels: Vec::new(),
-        })
+        Self::from_bytes(crate::TABLE_SIZE, crate::TABLE_NATIVE)
+            .unwrap_or(Self { size: 0, texels: Vec::new() })
     }
 }
 
@@ -72,9 +70,8 @@ impl Table {
             return Err(error);
         }
         let number = |i: usize| f16::from_le_bytes([bytes[2 * i], bytes[2 * i + 1]]);
-        let texels: Vec<[f16; 4]> = (0..bytes.len() / 8)
-            .map(|texel| core::array::from_fn(|k| number(4 * texel + k)))
-            .collect();
+        let texels: Vec<[f16; 4]> =
+            (0..bytes.len() / 8).map(|texel| core::array::from_fn(|k| number(4 * texel + k))).collect();
         if texels.iter().flatten().all(|number| number.is_finite()) {
             Ok(Self { size, texels })
         } else {
@@ -93,7 +90,10 @@ impl Table {
     ///
     /// If there is no such texel.
     pub fn texel(&self, layer: usize, column: usize, row: usize) -> [f16; 4] {
-        assert!(layer < 2 && column < self.size && row < self.size, "no texel ({column}, {row}) in layer {layer}");
+        assert!(
+            layer < 2 && column < self.size && row < self.size,
+            "no texel ({column}, {row}) in layer {layer}"
+        );
         self.texels[(layer * self.size + row) * self.size + column]
     }
 

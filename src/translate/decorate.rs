@@ -72,29 +72,25 @@ struct Comments<'a> {
 impl Comments<'_> {
     fn of_function(&self, name: &str) -> Option<&[String]> {
         let docs = self.module.doc_comments.as_ref()?;
-        let (handle, _) =
-            self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name))?;
+        let (handle, _) = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name))?;
         docs.functions.get(&handle).map(Vec::as_slice)
     }
 
     fn of_constant(&self, name: &str) -> Option<&[String]> {
         let docs = self.module.doc_comments.as_ref()?;
-        let (handle, _) =
-            self.module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name))?;
+        let (handle, _) = self.module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name))?;
         docs.constants.get(&handle).map(Vec::as_slice)
     }
 
     fn of_type(&self, name: &str) -> Option<&[String]> {
         let docs = self.module.doc_comments.as_ref()?;
-        let (handle, _) =
-            self.module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name))?;
+        let (handle, _) = self.module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name))?;
         docs.types.get(&handle).map(Vec::as_slice)
     }
 
     fn of_member(&self, structure: &str, name: &str) -> Option<&[String]> {
         let docs = self.module.doc_comments.as_ref()?;
-        let (handle, t) =
-            self.module.types.iter().find(|(_, t)| t.name.as_deref() == Some(structure))?;
+        let (handle, t) = self.module.types.iter().find(|(_, t)| t.name.as_deref() == Some(structure))?;
         let naga::TypeInner::Struct { members, .. } = &t.inner else { return None };
         let index = members.iter().position(|m| m.name.as_deref() == Some(name))?;
         docs.struct_members.get(&(handle, index)).map(Vec::as_slice)

@@ -32,15 +32,8 @@ pub enum Target {
 
 impl Target {
     /// Every target, in the order of their folders.
-    pub const ALL: [Self; 7] = [
-        Self::Glsl450,
-        Self::Glsl330,
-        Self::GlslEs300,
-        Self::GlslEs310,
-        Self::Hlsl,
-        Self::Unreal,
-        Self::Msl,
-    ];
+    pub const ALL: [Self; 7] =
+        [Self::Glsl450, Self::Glsl330, Self::GlslEs300, Self::GlslEs310, Self::Hlsl, Self::Unreal, Self::Msl];
 
     /// Where the translation lies, relative to the repository and to a package.
     pub fn path(self) -> &'static str {
@@ -136,10 +129,8 @@ pub fn kernel_spirv(source: &str, entry_point: &str) -> Result<Vec<u8>, Translat
         emit_int_div_checks: false,
         ..Default::default()
     };
-    let pipeline = spv::PipelineOptions {
-        shader_stage: ShaderStage::Compute,
-        entry_point: entry_point.to_owned(),
-    };
+    let pipeline =
+        spv::PipelineOptions { shader_stage: ShaderStage::Compute, entry_point: entry_point.to_owned() };
     let words = spv::write_vec(&module, &info, &options, Some(&pipeline))
         .map_err(|error| failed("no SPIR-V", error))?;
     Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())

@@ -51,8 +51,11 @@ impl Outline {
         // the factor itself in range.
         let scale = (-extent.log2().round().clamp(-1000.0, 1000.0)).exp2();
         let points: Vec<DVec3> = points.iter().map(|&point| point * scale).collect();
-        let anchor =
-            points.iter().copied().min_by(|a, b| a.length_squared().total_cmp(&b.length_squared())).unwrap_or_default();
+        let anchor = points
+            .iter()
+            .copied()
+            .min_by(|a, b| a.length_squared().total_cmp(&b.length_squared()))
+            .unwrap_or_default();
         let mut normal = DVec3::ZERO;
         let mut edges = Vec::with_capacity(points.len());
         for (&start, &end) in points.iter().zip(points.iter().cycle().skip(1)) {
@@ -100,7 +103,8 @@ impl Edge {
     fn new(start: DVec3, end: DVec3) -> Self {
         let along = end - start;
         // The end that is nearer to the axis has the smaller rounding error.
-        let near = if start.truncate().length_squared() < end.truncate().length_squared() { start } else { end };
+        let near =
+            if start.truncate().length_squared() < end.truncate().length_squared() { start } else { end };
         let horizontal = along.truncate();
         let slope = if horizontal == DVec2::ZERO {
             DVec2::ZERO

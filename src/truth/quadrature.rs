@@ -131,7 +131,12 @@ impl<const N: usize> Panel<N> {
 }
 
 /// One 15-point panel with QUADPACK's error estimate for the first `checked` components.
-fn measure<const N: usize>(from: f64, to: f64, checked: usize, function: &mut impl FnMut(f64) -> [f64; N]) -> Panel<N> {
+fn measure<const N: usize>(
+    from: f64,
+    to: f64,
+    checked: usize,
+    function: &mut impl FnMut(f64) -> [f64; N],
+) -> Panel<N> {
     let center = 0.5 * (from + to);
     let half_width = 0.5 * (to - from);
     let mut samples = [[0.0; N]; 15];
@@ -154,7 +159,8 @@ fn measure<const N: usize>(from: f64, to: f64, checked: usize, function: &mut im
 
 /// Integral over [−1, 1] from samples in ascending order.
 fn kronrod(samples: [f64; 15]) -> f64 {
-    let pairs: f64 = (0..7).map(|index| KRONROD_WEIGHTS[index] * (samples[index] + samples[14 - index])).sum();
+    let pairs: f64 =
+        (0..7).map(|index| KRONROD_WEIGHTS[index] * (samples[index] + samples[14 - index])).sum();
     pairs + KRONROD_WEIGHTS[7] * samples[7]
 }
 
