@@ -1,6 +1,8 @@
 //! Inputs that every form of the include has to survive, with the bound that holds for each.
 #![allow(dead_code, reason = "each test file uses a part of this module")]
 
+pub mod tools;
+
 use glam::{DVec3, Vec3};
 use softbox::device::{Batch, EvaluateLight, EvaluateSurface};
 use softbox::shade::{

@@ -1,0 +1,48 @@
+// The evaluation kernel written by hand in HLSL around the translated include, which is inserted
+// at the line that names it.
+
+//include
+
+struct Surface { float3 position; float roughness; float3 normal; float spare_a; float3 view; float spare_b; };
+struct Light { uint first; uint count; uint flags; uint spare; };
+#ifdef VULKAN
+#define BINDING(index) [[vk::binding(index, 0)]]
+#else
+#define BINDING(index)
+#endif
+BINDING(0) StructuredBuffer<Surface> surfaces : register(t0);
+BINDING(1) StructuredBuffer<Light> lights : register(t1);
+BINDING(2) StructuredBuffer<float4> vertices : register(t2);
+BINDING(3) StructuredBuffer<uint2> pairs : register(t3);
+BINDING(4) RWStructuredBuffer<float4> values : register(u0);
+BINDING(5) Texture2DArray<float4> table : register(t5);
+BINDING(6) SamplerState table_sampler : register(s0);
+
+[numthreads(64, 1, 1)]
+void main(uint3 invocation : SV_DispatchThreadID) {
+    uint index = invocation.x;
+    uint count, stride;
+    pairs.GetDimensions(count, stride);
+    if (index >= count) {
+        return;
+    }
+    Surface at = surfaces[pairs[index].x];
+    Light light = lights[pairs[index].y];
+    bool two_sided = (light.flags & 1u) != 0u;
+    float width, height, layers;
+    table.GetDimensions(width, height, layers);
+    LtcSurface surface = ltc_surface(at.position, at.normal, at.view, at.roughness);
+    LtcLobe lobe = ltc_lobe_from_table(surface, table, table_sampler, width);
+    uint first = light.first;
+    float3 value;
+    if ((light.flags & 2u) != 0u) {
+        value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
+    } else {
+        LtcPolygon polygon = ltc_polygon_begin(surface, vertices[first].xyz);
+        for (uint i = 1u; i < light.count; i++) {
+            ltc_polygon_add(polygon, surface, lobe, vertices[first + i].xyz);
+        }
+        value = ltc_polygon_end(polygon, surface, lobe, two_sided);
+    }
+    values[index] = float4(value, 0.0);
+}

@@ -1,0 +1,55 @@
+// The evaluation kernel as a C++ program around the translated include in Metal.
+//
+//   evaluate INPUT OUTPUT
+//
+// INPUT: the counts of surfaces, lights, vertices, pairs and the table's size as uint32, then those
+// arrays as the kernel binds them, then the table's texels as floats. OUTPUT: four floats a pair.
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include INCLUDE
+
+struct Surface { float position[3], roughness, normal[3], spare_a, view[3], spare_b; };
+struct Light { uint32_t first, count, flags, spare; };
+struct Pair { uint32_t surface, light; };
+
+template <class T> std::vector<T> read(FILE *file, size_t count) {
+    std::vector<T> values(count);
+    if (std::fread(values.data(), sizeof(T), count, file) != count) std::exit(1);
+    return values;
+}
+
+int main(int, char **arguments) {
+    FILE *input = std::fopen(arguments[1], "rb");
+    const auto counts = read<uint32_t>(input, 5);
+    const auto surfaces = read<Surface>(input, counts[0]);
+    const auto lights = read<Light>(input, counts[1]);
+    const auto vertices = read<metal::float4>(input, counts[2]);
+    const auto pairs = read<Pair>(input, counts[3]);
+    const uint32_t size = counts[4];
+    const auto texels = read<metal::float4>(input, 2 * size * size);
+    const metal::texture2d_array<float, metal::access::sample> table{texels.data(), size, size, 2};
+    FILE *output = std::fopen(arguments[2], "wb");
+    for (const Pair pair : pairs) {
+        const Surface &at = surfaces[pair.surface];
+        const Light light = lights[pair.light];
+        const bool two_sided = light.flags & 1;
+        const LtcSurface surface = ltc_surface(metal::float3{at.position[0], at.position[1], at.position[2]},
+            metal::float3{at.normal[0], at.normal[1], at.normal[2]},
+            metal::float3{at.view[0], at.view[1], at.view[2]}, at.roughness);
+        const LtcLobe lobe = ltc_lobe_from_table(surface, table, metal::sampler{}, float(size));
+        const auto vertex = [&](uint32_t i) { return vertices[light.first + i].xyz; };
+        metal::float3 value;
+        if (light.flags & 2) {
+            value = ltc_quad(surface, lobe, vertex(0), vertex(1), vertex(2), vertex(3), two_sided);
+        } else {
+            LtcPolygon polygon = ltc_polygon_begin(surface, vertex(0));
+            for (uint32_t i = 1; i < light.count; i++) ltc_polygon_add(polygon, surface, lobe, vertex(i));
+            value = ltc_polygon_end(polygon, surface, lobe, two_sided);
+        }
+        const float result[4] = {value.x, value.y, value.z, 0};
+        std::fwrite(result, sizeof result, 1, output);
+    }
+    return std::fclose(output);
+}

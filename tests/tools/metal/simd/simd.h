@@ -1,0 +1,2 @@
+// Empty: naga includes it, and nothing of it is used. See ../metal_stdlib.
+#pragma once
