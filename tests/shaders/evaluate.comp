@@ -16,10 +16,10 @@ layout(std430, binding = 2) readonly buffer Vertices { vec4 vertices[]; };
 layout(std430, binding = 3) readonly buffer Pairs { uvec2 pairs[]; };
 layout(std430, binding = 4) writeonly buffer Values { vec4 values[]; };
 #ifdef TABLE_SEPARATE
-layout(binding = 5) uniform texture2DArray table;
-layout(binding = 6) uniform sampler table_sampler;
+layout(binding = 5) uniform highp texture2DArray table;
+layout(binding = 6) uniform highp sampler table_sampler;
 #else
-layout(binding = 0) uniform sampler2DArray table;
+layout(binding = 0) uniform highp sampler2DArray table;
 #endif
 
 void main() {

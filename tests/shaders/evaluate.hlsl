@@ -5,7 +5,7 @@
 
 struct Surface { float3 position; float roughness; float3 normal; float spare_a; float3 view; float spare_b; };
 struct Light { uint first; uint count; uint flags; uint spare; };
-#ifdef VULKAN
+#ifdef VULKAN_BINDINGS
 #define BINDING(index) [[vk::binding(index, 0)]]
 #else
 #define BINDING(index)

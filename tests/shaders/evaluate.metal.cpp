@@ -6,6 +6,7 @@
 // arrays as the kernel binds them, then the table's texels as floats. OUTPUT: four floats a pair.
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <vector>
 
 #include INCLUDE
