@@ -16,6 +16,8 @@ pub mod device;
 pub mod fit;
 #[cfg(feature = "shade")]
 pub mod lobe;
+#[cfg(feature = "bake")]
+pub mod report;
 #[cfg(feature = "shade")]
 pub mod shade;
 #[cfg(feature = "shade")]

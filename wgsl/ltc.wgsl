@@ -246,12 +246,12 @@ fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<
 /// The value (diffuse, specular, fresnel) from the signed form factor over the surface's horizon
 /// and the signed vector form factor over both horizons in the lobe's space; `front` tells whether
 /// the light shows its emitting side.
-fn ltc_value(surface: LtcSurface, lobe: LtcLobe, form_factor: f32, vector: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
+fn ltc_value(surface: LtcSurface, lobe: LtcLobe, form_factor: f32, lobe_form_factor: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
     // A two-sided light is lit by the sign that the sum itself has: `front` may differ from it by
     // rounding where the light is seen edge-on.
     let emits = front | two_sided;
-    let flipped = two_sided & vector.z < 0.0;
-    let toward = select(vector, -vector, flipped);
+    let flipped = two_sided & (lobe_form_factor.z < 0.0);
+    let toward = select(lobe_form_factor, -lobe_form_factor, flipped);
     let diffuse = select(form_factor, abs(form_factor), two_sided);
     let coverage = select(0.0, clamp(toward.z / lobe.share, 0.0, 1.0), emits);
     let specular = ltc_specular(surface, lobe, coverage, toward);
@@ -419,7 +419,7 @@ fn ltc_far_quad(a: vec3<f32>, side_b: vec3<f32>, side_c: vec3<f32>, side_d: vec3
 /// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
 /// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
 /// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
-/// An edge whose ends are n times as far away as the edge itself may add 1e-7 n: so much do the
+/// An edge whose ends are n times as far away as the edge itself may add 4e-8 n: so much do the
 /// coordinates' own digits leave open.
 fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
     let origin = surface.position * LTC_HEADROOM;
@@ -454,13 +454,13 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
             let l_d = ltc_transform(lobe, side_d);
             let lobe_size = max(max(dot(l_b, l_b), dot(l_c, l_c)), dot(l_d, l_d));
             let lobe_lowest = l_a.z + min(min(0.0, l_b.z), min(l_c.z, l_d.z));
-            var vector: vec3<f32>;
+            var lobe_sum: vec3<f32>;
             if ((lobe_size < 0.0625 * dot(l_a, l_a)) & (lobe_lowest > 0.0)) {
-                vector = ltc_far_quad(l_a, l_b, l_c, l_d);
+                lobe_sum = ltc_far_quad(l_a, l_b, l_c, l_d);
             } else {
-                vector = ltc_pentagon(l_a, l_a + l_b, l_a + l_c, l_a + l_d, l_a + l_d);
+                lobe_sum = ltc_pentagon(l_a, l_a + l_b, l_a + l_c, l_a + l_d, l_a + l_d);
             }
-            return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
+            return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
         }
         // A distant light on the horizon keeps its precision only in the streamed form.
         var polygon = ltc_polygon_begin(surface, a);
@@ -524,9 +524,9 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let e_unit = v_e * inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
     let edges = ltc_edge(b_unit, a_unit) + ltc_edge(c_unit, b_unit) + ltc_edge(d_unit, c_unit) + ltc_edge(a_unit, e_unit);
     let sum = dot(surface.normal, edges) + ltc_horizon_edge(e_unit, d_unit, surface.normal);
-    let vector = ltc_pentagon(ltc_transform(lobe, v_a), ltc_transform(lobe, v_b), ltc_transform(lobe, v_c),
+    let lobe_sum = ltc_pentagon(ltc_transform(lobe, v_a), ltc_transform(lobe, v_b), ltc_transform(lobe, v_c),
         ltc_transform(lobe, v_d), ltc_transform(lobe, v_e));
-    return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, vector * LTC_OVER_TWO_PI, front, two_sided);
+    return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
 }
 
 // ---------------------------------------------------------------------------------------------

@@ -37,7 +37,7 @@ pub fn ggx(roughness: f64) -> Box<dyn Brdf> {
 }
 
 /// What to fit and how carefully.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {
     /// Texels along each axis, at least 2.
     pub size: usize,
@@ -45,6 +45,9 @@ pub struct Settings {
     pub layout: Layout,
     /// How the shader will treat the part of a lobe below the surface.
     pub horizon: Horizon,
+    /// How much the lobe's shape heeds the BRDF's Schlick part, 0 for not at all. The include finds
+    /// that part by the light's direction; other code takes it for a constant share.
+    pub schlick_weight: f64,
     /// Quadrature nodes across a lobe; the default of 40 changes the measured error of light
     /// integrals by less than a twentieth of itself against 64.
     pub nodes: usize,
@@ -53,12 +56,18 @@ pub struct Settings {
 impl Settings {
     /// The settings of the table that the include reads.
     pub fn native(size: usize) -> Self {
-        Self { size, layout: Layout::Native, horizon: Horizon::Cut, nodes: 40 }
+        Self { size, layout: Layout::Native, horizon: Horizon::Cut, schlick_weight: 0.0, nodes: 40 }
     }
 
     /// The settings of a table for code that implements the published technique.
     pub fn compatible(size: usize) -> Self {
-        Self { layout: Layout::Compatible, horizon: Horizon::Uncut, ..Self::native(size) }
+        // The weight at which no part is worse than the published table's on random quads.
+        Self {
+            layout: Layout::Compatible,
+            horizon: Horizon::Uncut,
+            schlick_weight: 0.5,
+            ..Self::native(size)
+        }
     }
 }
 
@@ -113,7 +122,7 @@ fn encode(layout: Layout, lobe: &Lobe, alpha: f64, cosine: f64) -> [f64; 4] {
 ///
 /// If `settings.size < 2`.
 pub fn bake(family: &dyn Family, settings: Settings, progress: &(dyn Fn(f64) + Sync)) -> Fitted {
-    let Settings { size, layout, horizon, nodes } = settings;
+    let Settings { size, layout, horizon, schlick_weight, nodes } = settings;
     assert!(size >= 2, "a table needs at least 2 texels along each axis, not {size}");
     let done = core::sync::atomic::AtomicUsize::new(0);
     let advance = |columns: f64| {
@@ -135,7 +144,8 @@ pub fn bake(family: &dyn Family, settings: Settings, progress: &(dyn Fn(f64) + S
                 let row = if layout == Layout::Native { size - 1 - step } else { step };
                 let cosine = layout.cosine(row as f64 / last);
                 let target = Target::new(brdf.as_ref(), cosine, nodes);
-                let lobe = target.fit(decode(Layout::Native, &start, alpha, cosine), horizon, 60);
+                let lobe =
+                    target.fit(decode(Layout::Native, &start, alpha, cosine), horizon, schlick_weight, 60);
                 start = encode(Layout::Native, &lobe, alpha, cosine);
                 texels.push((
                     Texel {

@@ -25,6 +25,8 @@ struct Node {
     y2: f64,
     z: f64,
     value: f64,
+    /// `value` times (1 − v·h)⁵.
+    schlick: f64,
     weight: f64,
 }
 
@@ -58,8 +60,9 @@ impl Target {
             let weight = 1.0 / density;
             let value = brdf.evaluate(view, light) * light.z;
             target.albedo += weight * value;
-            target.fresnel += weight * value * schlick(view, light);
-            target.nodes.push(Node { x: light.x, y2: light.y * light.y, z: light.z, value, weight });
+            let schlick = value * schlick(view, light);
+            target.fresnel += weight * schlick;
+            target.nodes.push(Node { x: light.x, y2: light.y * light.y, z: light.z, value, schlick, weight });
         };
         for i in 0..radial {
             for j in 0..angular {
@@ -96,7 +99,12 @@ impl Target {
     /// The weighted least-squares problem around `lobe`. The squared residual is
     /// (f − l)² / (f + l)^¾: of the exponents ½, ¾ and 1 the middle one gave the least mean error
     /// of light integrals on random quads.
-    pub fn normal(&self, lobe: &Lobe, horizon: Horizon) -> Normal {
+    ///
+    /// The Schlick part s of f, for which the lobe stands with its own magnitude, joins with
+    /// `schlick_weight` times (s − l)² / (s + l)^½. Both residuals count relative to their
+    /// magnitudes, and the second also by the root of the part's share: where it is small, the
+    /// lobe's shape is not worth spending on it.
+    pub fn normal(&self, lobe: &Lobe, horizon: Horizon, schlick_weight: f64) -> Normal {
         let det = lobe.determinant();
         let radius2 = lobe.x * lobe.x + lobe.y * lobe.y;
         let radius = radius2.sqrt();
@@ -111,6 +119,10 @@ impl Target {
         let scale = self.albedo * det / (PI * share);
         let constant =
             [lobe.w / det - share_x / share, -lobe.z / det - share_y / share, -lobe.y / det, lobe.x / det];
+        let ratio = self.fresnel / self.albedo;
+        // Brings the two losses to one scale: that of the albedo to the power 2 − ¾.
+        let schlick_weight = schlick_weight * ratio.sqrt() * self.albedo.powf(1.25)
+            / self.fresnel.max(f64::MIN_POSITIVE).powf(1.5);
         let mut normal = Normal::default();
         for node in &self.nodes {
             let qx = lobe.x * node.x + lobe.z * node.z;
@@ -122,6 +134,16 @@ impl Target {
             let root = sum.sqrt();
             let weight = node.weight / (root * root.sqrt());
             normal.loss += weight * residual * residual;
+            let (mut pull, mut curvature) = (weight * residual, weight);
+            if schlick_weight > 0.0 {
+                let part = ratio * value;
+                let residual = part - node.schlick;
+                let weight =
+                    schlick_weight * node.weight / (part + node.schlick + 1e-9 * self.fresnel).sqrt();
+                normal.loss += weight * residual * residual;
+                pull += ratio * weight * residual;
+                curvature += ratio * ratio * weight;
+            }
             if value <= 0.0 {
                 continue;
             }
@@ -134,8 +156,8 @@ impl Target {
                 value * (constant[3] + from_z * node.z),
             ];
             for i in 0..4 {
-                let weighted = weight * derivative[i];
-                normal.gradient[i] += weighted * residual;
+                let weighted = curvature * derivative[i];
+                normal.gradient[i] += pull * derivative[i];
                 for j in 0..=i {
                     normal.hessian[i][j] += weighted * derivative[j];
                 }
@@ -150,9 +172,9 @@ impl Target {
     }
 
     /// Fits a lobe by Levenberg–Marquardt, starting at `start`.
-    pub fn fit(&self, start: Lobe, horizon: Horizon, iterations: usize) -> Lobe {
+    pub fn fit(&self, start: Lobe, horizon: Horizon, schlick_weight: f64, iterations: usize) -> Lobe {
         let mut lobe = start;
-        let mut normal = self.normal(&lobe, horizon);
+        let mut normal = self.normal(&lobe, horizon, schlick_weight);
         let mut damping = 1e-3;
         for _ in 0..iterations {
             let mut system = normal.hessian;
@@ -164,7 +186,7 @@ impl Target {
             let next =
                 Lobe { x: lobe.x - step[0], y: lobe.y - step[1], z: lobe.z - step[2], w: lobe.w - step[3] };
             let valid = next.x > 0.0 && next.w > 0.0 && next.determinant() > 0.0;
-            let trial = if valid { Some(self.normal(&next, horizon)) } else { None };
+            let trial = if valid { Some(self.normal(&next, horizon, schlick_weight)) } else { None };
             match trial {
                 Some(trial) if trial.loss < normal.loss => {
                     let gain = (normal.loss - trial.loss) / normal.loss;
@@ -184,6 +206,22 @@ impl Target {
             }
         }
         lobe
+    }
+}
+
+impl Target {
+    /// The magnitude with which `lobe` comes closest to Schlick's part, by weighted least squares.
+    pub fn schlick_magnitude(&self, lobe: &Lobe) -> f64 {
+        let (mut product, mut square) = (0.0, 0.0);
+        for node in &self.nodes {
+            let q = lobe.transform(glam::DVec3::new(node.x, node.y2.sqrt(), node.z));
+            let n = 1.0 / q.length_squared();
+            let density = lobe.determinant() * q.z.max(0.0) * n * n / PI;
+            let weight = node.weight / (self.fresnel * density + node.schlick + 1e-9 * self.fresnel).sqrt();
+            product += weight * node.schlick * density;
+            square += weight * density * density;
+        }
+        product / square
     }
 }
 

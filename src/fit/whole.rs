@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::single::{Normal, Target};
-use super::{Fitted, Settings, Texel, decode};
+use super::{Fitted, Layout, Settings, Texel, decode};
 
 /// Gauss–Newton steps over the whole table.
 const STEPS: usize = 3;
@@ -96,6 +96,17 @@ pub(super) fn refine(fitted: &mut Fitted, columns: &[Vec<(Texel, Target)>], betw
     for (texel, parameters) in fitted.texels.iter_mut().zip(field) {
         texel.parameters = parameters;
     }
+    if layout == Layout::Compatible {
+        // Where Schlick's part is a constant share of the lobe, the best share is not the part's
+        // integral: some of that lies where the lobe does not reach.
+        for row in 0..size {
+            for (column, targets) in columns.iter().enumerate() {
+                let lobe = fitted.lobe(column, row);
+                fitted.texels[column + row * size].fresnel =
+                    targets[row].1.schlick_magnitude(&lobe).clamp(0.0, 1.0);
+            }
+        }
+    }
 }
 
 fn total(models: &[Quadratic]) -> f64 {
@@ -109,7 +120,7 @@ fn interpolate(sample: &Sample, field: &[[f64; 4]]) -> [f64; 4] {
 }
 
 fn quadratics(fitted: &Fitted, samples: &[Sample], field: &[[f64; 4]]) -> Vec<Quadratic> {
-    let Settings { layout, horizon, .. } = fitted.settings;
+    let Settings { layout, horizon, schlick_weight, .. } = fitted.settings;
     samples
         .par_iter()
         .map(|sample| {
@@ -118,7 +129,7 @@ fn quadratics(fitted: &Fitted, samples: &[Sample], field: &[[f64; 4]]) -> Vec<Qu
             if lobe.determinant() <= 0.0 || lobe.x <= 0.0 || lobe.w <= 0.0 {
                 return Quadratic { gradient: [0.0; 4], hessian: [[0.0; 4]; 4], loss: f64::INFINITY };
             }
-            let Normal { loss, gradient, hessian } = sample.target.normal(&lobe, horizon);
+            let Normal { loss, gradient, hessian } = sample.target.normal(&lobe, horizon, schlick_weight);
             let (_, scale) = layout.affine(sample.alpha, sample.cosine);
             Quadratic {
                 loss,

@@ -1,5 +1,7 @@
 //! What makes a translated text an include: header, guard and comments.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use naga::Module;
 
 use super::Target;
@@ -64,73 +66,136 @@ fn usage(target: Target) -> &'static [&'static str] {
     }
 }
 
-/// The doc comments by the name of what they belong to.
-struct Comments<'a> {
-    module: &'a Module,
+/// The doc comments of the include, by the name of what they belong to; a member's name follows its
+/// type's and a dot.
+///
+/// They are read from the text. naga parses them too, but gives a struct's comments to its first
+/// members instead of their own, and loses those that follow an ordinary comment.
+fn doc_comments() -> BTreeMap<String, Vec<&'static str>> {
+    let mut comments = BTreeMap::new();
+    let mut pending = Vec::new();
+    let mut structure: Option<&str> = None;
+    for line in WGSL_INCLUDE.lines() {
+        let code = line.trim();
+        if let Some(comment) = code.strip_prefix("///") {
+            pending.push(comment.trim_end());
+            continue;
+        }
+        let mut words = code.split(|c: char| !is_part(c)).filter(|word| !word.is_empty());
+        let name = match (words.next(), structure) {
+            (Some("struct"), _) => {
+                structure = words.next();
+                structure.map(str::to_owned)
+            }
+            (Some("fn" | "const"), _) => words.next().map(str::to_owned),
+            (Some(member), Some(structure)) => Some(format!("{structure}.{member}")),
+            _ => None,
+        };
+        if code.starts_with('}') {
+            structure = None;
+        }
+        if let Some(name) = name.filter(|_| !pending.is_empty()) {
+            comments.insert(name, core::mem::take(&mut pending));
+        }
+        pending.clear();
+    }
+    comments
 }
 
-impl Comments<'_> {
-    fn of_function(&self, name: &str) -> Option<&[String]> {
-        let docs = self.module.doc_comments.as_ref()?;
-        let (handle, _) = self.module.functions.iter().find(|(_, f)| f.name.as_deref() == Some(name))?;
-        docs.functions.get(&handle).map(Vec::as_slice)
-    }
-
-    fn of_constant(&self, name: &str) -> Option<&[String]> {
-        let docs = self.module.doc_comments.as_ref()?;
-        let (handle, _) = self.module.constants.iter().find(|(_, c)| c.name.as_deref() == Some(name))?;
-        docs.constants.get(&handle).map(Vec::as_slice)
-    }
-
-    fn of_type(&self, name: &str) -> Option<&[String]> {
-        let docs = self.module.doc_comments.as_ref()?;
-        let (handle, _) = self.module.types.iter().find(|(_, t)| t.name.as_deref() == Some(name))?;
-        docs.types.get(&handle).map(Vec::as_slice)
-    }
-
-    fn of_member(&self, structure: &str, name: &str) -> Option<&[String]> {
-        let docs = self.module.doc_comments.as_ref()?;
-        let (handle, t) = self.module.types.iter().find(|(_, t)| t.name.as_deref() == Some(structure))?;
-        let naga::TypeInner::Struct { members, .. } = &t.inner else { return None };
-        let index = members.iter().position(|m| m.name.as_deref() == Some(name))?;
-        docs.struct_members.get(&(handle, index)).map(Vec::as_slice)
-    }
-}
-
+/// The text with the include's comments before the functions, types, members and constants that
+/// they belong to, and with the include's own names of parameters and locals.
 fn documented(module: &Module, body: &str) -> String {
-    let comments = Comments { module };
+    let comments = doc_comments();
+    let body = with_plain_names(module, body);
     let mut text = String::new();
-    let mut structure = None;
+    let mut structure: Option<&str> = None;
     for line in body.lines() {
-        let declared = if let Some(rest) = line.strip_prefix("struct ") {
+        let name = if let Some(rest) = line.strip_prefix("struct ") {
             let name = identifier(rest);
             structure = Some(name);
-            comments.of_type(name)
+            name.to_owned()
         } else if line.starts_with('}') {
             structure = None;
-            None
+            String::new()
         } else if let Some(within) = structure {
-            comments.of_member(within, last_identifier(line))
+            format!("{within}.{}", last_identifier(line))
         } else if line.starts_with(char::is_whitespace) {
-            None
+            String::new()
         } else if let Some((head, _)) = line.split_once('(').filter(|(head, _)| !head.contains('=')) {
-            comments.of_function(last_identifier(head))
-        } else if let Some((head, _)) = line.split_once('=') {
-            comments.of_constant(last_identifier(head))
+            last_identifier(head).to_owned()
         } else {
-            None
+            line.split_once('=').map_or(String::new(), |(head, _)| last_identifier(head).to_owned())
         };
+        let comment = comments.get(&name);
         let indent = &line[..line.len() - line.trim_start().len()];
-        for comment in declared.unwrap_or_default() {
-            // Plain comments: not every tool knows the third slash.
-            text.push_str(indent);
-            text.push_str(comment.trim_start().strip_prefix('/').unwrap_or(comment).trim_end());
+        if comment.is_some() && indent.is_empty() && !text.ends_with("\n\n") {
             text.push('\n');
+        }
+        for comment in comment.into_iter().flatten() {
+            text.push_str(&format!("{indent}//{comment}\n"));
         }
         text.push_str(line.trim_end());
         text.push('\n');
     }
     text
+}
+
+/// The text with parameters and locals renamed to what the include calls them. naga numbers names
+/// that any other function uses too; within one function the number says nothing.
+fn with_plain_names(module: &Module, body: &str) -> String {
+    let global: BTreeSet<&str> = module
+        .functions
+        .iter()
+        .filter_map(|(_, function)| function.name.as_deref())
+        .chain(module.types.iter().filter_map(|(_, kind)| kind.name.as_deref()))
+        .chain(module.constants.iter().filter_map(|(_, constant)| constant.name.as_deref()))
+        .collect();
+    // naga leaves the first use of a name as it is, unless the name is a keyword of the target.
+    let allowed: BTreeSet<&str> = body.split(|c: char| !is_part(c)).collect();
+    let mut text = String::new();
+    let mut function = String::new();
+    for line in body.lines() {
+        function.push_str(line);
+        function.push('\n');
+        if line.starts_with('}') {
+            text.push_str(&with_plain_names_in(&function, &global, &allowed));
+            function.clear();
+        }
+    }
+    text + &function
+}
+
+fn with_plain_names_in(function: &str, global: &BTreeSet<&str>, allowed: &BTreeSet<&str>) -> String {
+    let words: BTreeSet<&str> = function.split(|c: char| !is_part(c)).collect();
+    let plain = |word: &str| -> Option<String> {
+        let (base, number) = word.rsplit_once('_')?;
+        let numbered = !number.is_empty() && number.bytes().all(|byte| byte.is_ascii_digit());
+        // naga's own temporaries start with an underscore.
+        let named = base.starts_with(|c: char| c.is_ascii_lowercase());
+        (numbered && named).then(|| base.to_owned())
+    };
+    let mut bases: BTreeMap<String, usize> = BTreeMap::new();
+    for base in words.iter().filter_map(|word| plain(word)) {
+        *bases.entry(base).or_default() += 1;
+    }
+    let free = |base: &str| {
+        bases.get(base) == Some(&1)
+            && allowed.contains(base)
+            && !words.contains(base)
+            && !global.contains(base)
+    };
+    let mut text = String::new();
+    let mut rest = function;
+    while let Some(start) = rest.find(is_part) {
+        text.push_str(&rest[..start]);
+        let word = identifier(&rest[start..]);
+        match plain(word).filter(|base| free(base)) {
+            Some(base) => text.push_str(&base),
+            None => text.push_str(word),
+        }
+        rest = &rest[start + word.len()..];
+    }
+    text + rest
 }
 
 fn is_part(c: char) -> bool {

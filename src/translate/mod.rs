@@ -70,10 +70,7 @@ fn failed(what: &str, why: impl core::fmt::Display) -> TranslateError {
 
 /// Parses and validates WGSL.
 pub(crate) fn parse(source: &str) -> Result<(Module, ModuleInfo), TranslateError> {
-    let mut options = naga::front::wgsl::Options::new();
-    options.parse_doc_comments = true;
-    let module = naga::front::wgsl::Frontend::new_with_options(options)
-        .parse(source)
+    let module = naga::front::wgsl::parse_str(source)
         .map_err(|error| failed("the WGSL does not parse", error.emit_to_string(source)))?;
     let info = validate(&module)?;
     Ok((module, info))
@@ -181,7 +178,13 @@ fn hlsl_text(module: &Module, info: &ModuleInfo) -> Result<String, TranslateErro
     hlsl::Writer::new(&mut text, &options, &hlsl::PipelineOptions::default())
         .write(module, info, None)
         .map_err(|error| failed("no HLSL", error))?;
-    Ok(text)
+    Ok(without_padding(&text))
+}
+
+/// Without the members that naga adds to match WGSL's layout in buffers, where no type of the include
+/// ever lies.
+fn without_padding(text: &str) -> String {
+    text.lines().filter(|line| !line.contains("_pad")).fold(String::new(), |text, line| text + line + "\n")
 }
 
 fn msl_text(module: &Module, info: &ModuleInfo) -> Result<String, TranslateError> {
@@ -193,6 +196,9 @@ fn msl_text(module: &Module, info: &ModuleInfo) -> Result<String, TranslateError
         ..Default::default()
     };
     msl::write_string(module, info, &options, &msl::PipelineOptions::default())
-        .map(|(text, _)| text)
+        .map(|(text, _)| {
+            // A comment of naga's and a name that nothing here uses.
+            without_padding(&text.replace("// language: metal2.0\n", "").replace("using metal::uint;\n", ""))
+        })
         .map_err(|error| failed("no MSL", error))
 }

@@ -170,7 +170,7 @@ impl Builder {
         if let Bound::Absolute(bound) = case.bound {
             // The contact families are exact in their coordinates and keep their bound.
             if family != "standing on the surface" {
-                case.bound = Bound::Absolute(bound.max(1e-7 * edge_ratio(&case)));
+                case.bound = Bound::Absolute(bound.max(4e-8 * edge_ratio(&case)));
             }
         }
         self.cases.push(case.clone());
