@@ -15,7 +15,11 @@ pub mod device;
 #[cfg(feature = "bake")]
 pub mod fit;
 #[cfg(feature = "shade")]
+pub mod light;
+#[cfg(feature = "shade")]
 pub mod lobe;
+#[cfg(feature = "package")]
+pub mod package;
 #[cfg(feature = "bake")]
 pub mod report;
 #[cfg(feature = "shade")]

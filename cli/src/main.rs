@@ -1,1 +1,41 @@
-fn main() {}
+//! The command line of Softbox.
+
+mod bake;
+mod eval;
+mod model;
+mod package;
+mod progress;
+
+use clap::{Parser, Subcommand};
+
+/// Area lights by linearly transformed cosines: bake the table, translate the include, evaluate lights.
+///
+/// Errors are one sentence on standard error, and the exit code is then 2.
+#[derive(Parser)]
+#[command(name = "softbox", version, max_term_width = 100)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Write the drop-in package: the include in every language, the tables in every format, a guide.
+    Build(package::BuildArguments),
+    /// Bake one table into one file.
+    Bake(bake::BakeArguments),
+    /// Evaluate surfaces and lights given as JSON Lines.
+    Eval(eval::EvalArguments),
+}
+
+fn main() {
+    let result = match Arguments::parse().command {
+        Command::Build(arguments) => package::build(&arguments),
+        Command::Bake(arguments) => bake::bake(&arguments),
+        Command::Eval(arguments) => eval::eval(&arguments),
+    };
+    if let Err(error) = result {
+        eprintln!("error: {error:#}");
+        std::process::exit(2);
+    }
+}

@@ -1,0 +1,115 @@
+//! `softbox bake`.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::Context;
+use clap::{Args, ValueEnum};
+use softbox::fit::{self, Settings};
+use softbox::package::measure;
+use softbox::report::{Accuracy, REGIONS, Technique};
+use softbox::table::{Container, Table};
+
+use crate::model::ModelArguments;
+use crate::progress;
+
+#[derive(Args)]
+pub struct BakeArguments {
+    /// File to write; its extension chooses the format: .bin (raw texels), .dds, .ktx2, .rs or .h.
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Texels along each axis, 2 to 1024.
+    #[arg(long, default_value_t = 64, value_name = "N")]
+    size: usize,
+    /// Meaning of the texels.
+    #[arg(long, value_enum, default_value = "native")]
+    layout: LayoutName,
+    #[command(flatten)]
+    model: ModelArguments,
+    /// Measure the table against numerical integration, and print its error by region.
+    #[arg(long)]
+    measure: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum LayoutName {
+    /// What the include reads.
+    Native,
+    /// What code that implements the published technique reads.
+    Compatible,
+}
+
+pub fn check_size(size: usize) -> anyhow::Result<()> {
+    anyhow::ensure!(
+        (2..=1024).contains(&size),
+        "the table size is {size}, but must be from 2 to 1024 texels along each axis"
+    );
+    Ok(())
+}
+
+pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
+    let started = Instant::now();
+    check_size(arguments.size)?;
+    let extension = arguments.out.extension().unwrap_or_default().to_string_lossy();
+    let container = Container::ALL
+        .into_iter()
+        .find(|container| container.extension() == extension)
+        .with_context(|| {
+            format!(
+                "{} has no extension that names a table format; use .bin, .dds, .ktx2, .rs or .h",
+                arguments.out.display()
+            )
+        })?;
+    let family = arguments.model.family()?;
+    let (settings, technique) = match arguments.layout {
+        LayoutName::Native => (Settings::native(arguments.size), Technique::Include),
+        LayoutName::Compatible => (Settings::compatible(arguments.size), Technique::Published),
+    };
+    let bar = progress::bar("Baking");
+    let fitted = fit::bake(&family, settings, &|share| progress::advance(&bar, share));
+    bar.finish_and_clear();
+    let table = Table::pack(&fitted);
+    let bytes = container.write(&table)?;
+    write_file(&arguments.out, &bytes)?;
+    println!(
+        "Wrote {} ({} bytes) in {:.1} s.",
+        arguments.out.display(),
+        bytes.len(),
+        started.elapsed().as_secs_f64()
+    );
+    if arguments.measure {
+        let bar = progress::bar("Measuring");
+        let measured = measure(&table, technique, &family, 200, &|share| progress::advance(&bar, share));
+        bar.finish_and_clear();
+        println!("\nMean |error| over mean value, per cent, on random quads:");
+        println!("{:34} {:>9} {:>9} {:>11}", "", "specular", "Schlick", "dielectric");
+        print_row("all", &measured.all);
+        for (region, accuracy) in REGIONS.iter().zip(&measured.regions) {
+            let ((low, high), (grazing, steep)) = (region.roughness, region.cosine);
+            print_row(&format!("roughness {low}-{high}, cosine {grazing}-{steep}"), accuracy);
+        }
+    }
+    Ok(())
+}
+
+pub fn print_row(name: &str, accuracy: &Accuracy) {
+    println!(
+        "{name:34} {:9.2} {:9.2} {:11.2}",
+        100.0 * accuracy.specular,
+        100.0 * accuracy.fresnel,
+        100.0 * accuracy.dielectric
+    );
+}
+
+/// Writes a file whole or not at all.
+pub fn write_file(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(format!(".{}.tmp", std::process::id()));
+    let temporary = path.with_file_name(name);
+    let written = std::fs::write(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
+    if written.is_err() {
+        // What there is of it; the error that counts is the one above.
+        let _ = std::fs::remove_file(&temporary);
+    }
+    written.with_context(|| format!("cannot write {}", path.display()))
+}

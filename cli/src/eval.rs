@@ -1,0 +1,263 @@
+//! `softbox eval`.
+
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::path::PathBuf;
+
+use anyhow::Context;
+use clap::{Args, ValueEnum};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use serde::Deserialize;
+use serde_json::Value;
+use softbox::brdf::Ggx;
+use softbox::device::{Batch, Device, EvaluateLight, EvaluateSurface, Program};
+use softbox::light::is_convex_quad;
+use softbox::shade::{
+    LTC_ROUGHNESS_FLOOR, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad,
+    ltc_surface,
+};
+use softbox::table::Table;
+use softbox::truth;
+
+/// Evaluate surfaces and lights given as JSON Lines, one case a line:
+///
+/// {"surface":{"position":[0,0,0],"normal":[0,0,1],"view":[0.6,0,0.8],"roughness":0.5},
+///  "light":{"shape":"polygon","points":[[x,y,z],...],"two_sided":false}}
+///
+/// (on one line). normal and view (towards the eye) need not be unit; two_sided may be left out;
+/// unknown fields are ignored. The polygon emits from the side from which its points run
+/// counter-clockwise, with radiance 1. One line each is written:
+///
+/// {"diffuse":d,"specular":s,"fresnel":f}
+///
+/// with the integrals over the light's solid angle of cos/pi, of f cos for F = 1, and of
+/// f cos (1 - v.h)^5. The model is GGX with height-correlated Smith masking.
+#[derive(Args)]
+#[command(verbatim_doc_comment)]
+pub struct EvalArguments {
+    /// What evaluates.
+    #[arg(long, value_enum, default_value = "cpu")]
+    on: On,
+    /// File of cases; standard input without it.
+    file: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum On {
+    /// The include's twin in single precision.
+    Cpu,
+    /// The include's twin in double precision.
+    CpuF64,
+    /// The include on the first Vulkan adapter.
+    Gpu,
+    /// Numerical integration of the reflectance model in double precision.
+    Truth,
+}
+
+#[derive(Deserialize)]
+struct RawCase {
+    surface: RawSurface,
+    light: Value,
+}
+
+#[derive(Deserialize)]
+struct RawSurface {
+    position: [f64; 3],
+    normal: [f64; 3],
+    view: [f64; 3],
+    roughness: f64,
+}
+
+#[derive(Deserialize)]
+struct RawPolygon {
+    points: Vec<[f64; 3]>,
+    #[serde(default)]
+    two_sided: bool,
+}
+
+struct Case {
+    position: DVec3,
+    normal: DVec3,
+    view: DVec3,
+    roughness: f64,
+    points: Vec<DVec3>,
+    two_sided: bool,
+}
+
+/// Lines that are evaluated together: few enough to answer soon, enough to keep all cores busy.
+const CHUNK: usize = 4096;
+
+pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
+    let input: Box<dyn BufRead> = match &arguments.file {
+        Some(path) => {
+            let file = File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
+            Box::new(BufReader::new(file))
+        }
+        None => Box::new(BufReader::new(io::stdin())),
+    };
+    let table = Table::default();
+    let device = match arguments.on {
+        On::Gpu => Some(Device::open(wgpu::Backends::VULKAN)?),
+        _ => None,
+    };
+    let mut output = BufWriter::new(io::stdout().lock());
+    let mut cases: Vec<Case> = Vec::new();
+    let mut flush = |cases: &mut Vec<Case>| -> anyhow::Result<()> {
+        let values: Vec<[f64; 3]> = match arguments.on {
+            On::Cpu => cases.par_iter().map(|case| by_twin::<f32>(&table, case)).collect(),
+            On::CpuF64 => cases.par_iter().map(|case| by_twin::<f64>(&table, case)).collect(),
+            On::Truth => cases.par_iter().map(by_truth).collect(),
+            On::Gpu => match &device {
+                Some(device) => by_device(device, &table, cases)?,
+                None => Vec::new(),
+            },
+        };
+        for [diffuse, specular, fresnel] in values {
+            let written = if matches!(arguments.on, On::Cpu | On::Gpu) {
+                // The shortest text that is the same single-precision number.
+                let (diffuse, specular, fresnel) = (diffuse as f32, specular as f32, fresnel as f32);
+                writeln!(output, r#"{{"diffuse":{diffuse:?},"specular":{specular:?},"fresnel":{fresnel:?}}}"#)
+            } else {
+                writeln!(output, r#"{{"diffuse":{diffuse:?},"specular":{specular:?},"fresnel":{fresnel:?}}}"#)
+            };
+            match written {
+                // Whoever reads has seen enough.
+                Err(error) if error.kind() == io::ErrorKind::BrokenPipe => std::process::exit(0),
+                other => other.context("cannot write to standard output")?,
+            }
+        }
+        output.flush().context("cannot write to standard output")?;
+        cases.clear();
+        Ok(())
+    };
+    let single = matches!(arguments.on, On::Cpu | On::Gpu);
+    for (index, line) in input.split(b'\n').enumerate() {
+        let number = index + 1;
+        let line = line.with_context(|| format!("cannot read line {number}"))?;
+        if line.iter().all(u8::is_ascii_whitespace) {
+            continue;
+        }
+        match parse(&line, single) {
+            Ok(case) => cases.push(case),
+            Err(error) => {
+                flush(&mut cases)?;
+                return Err(error.context(format!("line {number}")));
+            }
+        }
+        if cases.len() == CHUNK {
+            flush(&mut cases)?;
+        }
+    }
+    flush(&mut cases)
+}
+
+fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
+    let text = std::str::from_utf8(line).map_err(|_| anyhow::anyhow!("the line is not UTF-8 text"))?;
+    let value: Value = serde_json::from_str(text).map_err(|error| {
+        if error.to_string().contains("out of range") {
+            anyhow::anyhow!("a number is not finite: it is beyond what double precision holds")
+        } else {
+            anyhow::anyhow!("the line is not JSON: {error}")
+        }
+    })?;
+    let RawCase { surface, light } =
+        RawCase::deserialize(&value).map_err(|error| anyhow::anyhow!("not a case: {error}"))?;
+    match light.get("shape") {
+        Some(Value::String(shape)) if shape == "polygon" => {}
+        Some(shape) => anyhow::bail!("the light's shape is {shape}, but the known shape is \"polygon\""),
+        None => anyhow::bail!("the light has no field `shape`; the known shape is \"polygon\""),
+    }
+    let RawPolygon { points, two_sided } =
+        RawPolygon::deserialize(&light).map_err(|error| anyhow::anyhow!("not a polygon light: {error}"))?;
+    let vector = |name: &str, v: [f64; 3]| -> anyhow::Result<DVec3> {
+        let v = DVec3::from(v);
+        anyhow::ensure!(
+            v.is_finite() && (!single || v.as_vec3().is_finite()),
+            "{name} is not finite in {} precision",
+            if single { "single" } else { "double" }
+        );
+        Ok(v)
+    };
+    let direction = |name: &str, v: [f64; 3]| -> anyhow::Result<DVec3> {
+        let v = vector(name, v)?;
+        anyhow::ensure!(
+            v != DVec3::ZERO && (!single || v.as_vec3() != Vec3::ZERO),
+            "{name} is zero, but a direction needs a length"
+        );
+        Ok(v)
+    };
+    let roughness = surface.roughness;
+    anyhow::ensure!((0.0..=1.0).contains(&roughness), "roughness is {roughness}, but must be from 0 to 1");
+    anyhow::ensure!(points.len() >= 3, "the polygon has {} points, but needs at least three", points.len());
+    Ok(Case {
+        position: vector("position", surface.position)?,
+        normal: direction("normal", surface.normal)?,
+        view: direction("view", surface.view)?,
+        roughness,
+        points: points
+            .into_iter()
+            .enumerate()
+            .map(|(i, point)| vector(&format!("point {}", i + 1), point))
+            .collect::<anyhow::Result<_>>()?,
+        two_sided,
+    })
+}
+
+fn by_twin<R: Real>(table: &Table, case: &Case) -> [f64; 3] {
+    let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
+    let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), R::new(case.roughness));
+    let lobe = table.lobe(&surface);
+    let value = if is_convex_quad(&case.points) {
+        let corners = core::array::from_fn(|i| v(case.points[i]));
+        ltc_quad(&surface, &lobe, corners, case.two_sided)
+    } else {
+        let mut polygon = ltc_polygon_begin(&surface, v(case.points[0]));
+        for point in &case.points[1..] {
+            ltc_polygon_add(&mut polygon, &surface, &lobe, v(*point));
+        }
+        ltc_polygon_end(&mut polygon, &surface, &lobe, case.two_sided)
+    };
+    [value.x(), value.y(), value.z()].map(Real::to_f64)
+}
+
+fn by_truth(case: &Case) -> [f64; 3] {
+    let normal = normalized(case.normal);
+    let (tangent, bitangent) = normal.any_orthonormal_pair();
+    let place = |v: DVec3| DVec3::new(v.dot(tangent), v.dot(bitangent), v.dot(normal));
+    let mut view = place(normalized(case.view));
+    // As for the include, a view on or below the horizon counts as a grazing one.
+    view.z = view.z.max(1e-4);
+    let view = view.normalize();
+    let points: Vec<DVec3> = case.points.iter().map(|point| place(*point - case.position)).collect();
+    let alpha = case.roughness.max(LTC_ROUGHNESS_FLOOR).powi(2);
+    let truth = truth::polygon(&Ggx::new(alpha), view, &points, case.two_sided, 1e-7);
+    [truth.diffuse, truth.specular, truth.fresnel]
+}
+
+/// The direction of a vector of any length.
+fn normalized(v: DVec3) -> DVec3 {
+    (v / v.abs().max_element()).normalize()
+}
+
+fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<Vec<[f64; 3]>> {
+    let mut batch = Batch::default();
+    for (index, case) in cases.iter().enumerate() {
+        let single = |v: DVec3| <[f32; 3]>::from(v.as_vec3());
+        batch.surfaces.push(EvaluateSurface {
+            position: single(case.position),
+            roughness: case.roughness as f32,
+            normal: single(case.normal),
+            view: single(case.view),
+            ..EvaluateSurface::default()
+        });
+        let points: Vec<[f32; 3]> = case.points.iter().map(|point| single(*point)).collect();
+        let flags = u32::from(case.two_sided) * EvaluateLight::TWO_SIDED
+            + u32::from(is_convex_quad(&case.points)) * EvaluateLight::CONVEX_QUAD;
+        let light = batch.add_light(&points, flags);
+        batch.pairs.push([index as u32, light]);
+    }
+    let program = Program::Wgsl(format!("{}\n{}", softbox::WGSL_INCLUDE, softbox::WGSL_EVALUATE));
+    let values = device.evaluate(&program, table, &batch)?;
+    Ok(values.into_iter().map(|value| value.map(f64::from)).collect())
+}

@@ -1,0 +1,53 @@
+//! The reflectance model that a table is baked for.
+
+use clap::{Args, ValueEnum};
+use softbox::brdf::{Beckmann, Brdf, Ggx, Lambert, Masking};
+
+#[derive(Args)]
+pub struct ModelArguments {
+    /// Reflectance model.
+    #[arg(long, value_enum, default_value = "ggx")]
+    model: ModelName,
+    /// For ggx-schlick: the constant k of G1 = (n.w) / ((n.w)(1 - k) + k), as a multiple of alpha, or of
+    /// (roughness + 1)^2 with --k-of-roughness.
+    #[arg(long, default_value_t = 0.5, value_name = "FACTOR")]
+    k: f64,
+    /// For ggx-schlick: take k as a multiple of (roughness + 1)^2 instead of alpha; 0.125 is usual.
+    #[arg(long)]
+    k_of_roughness: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ModelName {
+    /// GGX with height-correlated Smith masking.
+    Ggx,
+    /// GGX with Schlick's separable approximation to Smith masking, see --k.
+    GgxSchlick,
+    /// Beckmann with height-correlated Smith masking.
+    Beckmann,
+    /// A diffuse surface.
+    Lambert,
+}
+
+impl ModelArguments {
+    /// The model at every roughness, or why there is none.
+    pub fn family(&self) -> anyhow::Result<impl Fn(f64) -> Box<dyn Brdf> + Sync + use<>> {
+        let Self { model, k, k_of_roughness } = *self;
+        anyhow::ensure!(
+            k.is_finite() && (0.0..=1.0).contains(&k),
+            "--k is {k}, but a factor must be a number from 0 to 1"
+        );
+        Ok(move |roughness: f64| -> Box<dyn Brdf> {
+            let alpha = roughness * roughness;
+            match model {
+                ModelName::Ggx => Box::new(Ggx::new(alpha)),
+                ModelName::GgxSchlick => {
+                    let k = if k_of_roughness { k * (roughness + 1.0).powi(2) } else { k * alpha };
+                    Box::new(Ggx { alpha, masking: Masking::Schlick { k } })
+                }
+                ModelName::Beckmann => Box::new(Beckmann { alpha }),
+                ModelName::Lambert => Box::new(Lambert),
+            }
+        })
+    }
+}

@@ -1,0 +1,86 @@
+//! `softbox build`.
+
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::time::Instant;
+
+use clap::Args;
+use softbox::fit::Layout;
+use softbox::package::{self, Contents, Step};
+
+use crate::bake::{check_size, print_row, write_file};
+use crate::model::ModelArguments;
+use crate::progress;
+
+#[derive(Args)]
+pub struct BuildArguments {
+    /// Folder of the package; an older package there is replaced.
+    #[arg(long, default_value = "softbox-package", value_name = "DIR")]
+    out: PathBuf,
+    /// Texels along each axis of the tables, 2 to 1024.
+    #[arg(long, default_value_t = 64, value_name = "N")]
+    table_size: usize,
+    #[command(flatten)]
+    model: ModelArguments,
+    /// Write the translations and raw tables over those of a repository instead of a package.
+    #[arg(long, value_name = "REPOSITORY", conflicts_with = "out")]
+    update: Option<PathBuf>,
+}
+
+pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
+    let started = Instant::now();
+    check_size(arguments.table_size)?;
+    let family = arguments.model.family()?;
+    let contents = Contents { table_size: arguments.table_size, ..Contents::default() };
+    let bar = progress::bar("Building");
+    let shown = Mutex::new(None);
+    let package = package::build(&family, &contents, &|step, share| {
+        let what = match step {
+            Step::Bake(Layout::Native) => "Baking the table",
+            Step::Bake(Layout::Compatible) => "Baking the compatible",
+            Step::Measure(_) => "Measuring",
+            Step::Translate => "Translating",
+        };
+        if let Ok(mut shown) = shown.lock() {
+            if *shown != Some(step) {
+                *shown = Some(step);
+                bar.reset();
+                bar.set_message(what);
+            }
+        }
+        progress::advance(&bar, share);
+    })?;
+    bar.finish_and_clear();
+    if let Some(repository) = &arguments.update {
+        let committed = ["glsl/", "hlsl/", "msl/", "spirv/"];
+        for (path, bytes) in &package.files {
+            if committed.iter().any(|folder| path.starts_with(folder)) || path.ends_with(".bin") {
+                let path = repository.join(path);
+                if let Some(folder) = path.parent() {
+                    std::fs::create_dir_all(folder)?;
+                }
+                write_file(&path, bytes)?;
+                println!("{}", path.display());
+            }
+        }
+        return Ok(());
+    }
+    package::write_folder(&package, &arguments.out)?;
+    println!("Wrote {}:", arguments.out.display());
+    for (path, bytes) in &package.files {
+        println!("  {path:28} {:>8}", bytes.len());
+    }
+    let bytes: usize = package.files.iter().map(|(_, bytes)| bytes.len()).sum();
+    println!("{} files, {bytes} bytes.", package.files.len());
+    println!("\nMean |error| over mean value, per cent, against numerical integration on random quads:");
+    println!("{:34} {:>9} {:>9} {:>11}", "", "specular", "Schlick", "dielectric");
+    for (name, measured) in
+        [("the include", &package.native), ("published technique, our table", &package.compatible)]
+    {
+        if let Some(measured) = measured {
+            print_row(name, &measured.all);
+        }
+    }
+    println!("\nTook {:.1} s.", started.elapsed().as_secs_f64());
+    Ok(())
+}

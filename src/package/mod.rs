@@ -1,0 +1,157 @@
+//! The drop-in package: the include in every language, the tables in every format, a guide.
+
+mod guide;
+mod write;
+
+pub use write::{WriteError, write_folder};
+
+use crate::fit::{self, Family, Layout, Settings};
+use crate::report::{self, Accuracy, REGIONS, Technique};
+use crate::table::{Container, ContainerError, Table};
+use crate::translate::{self, Target, TranslateError};
+
+/// What to put into a package.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Contents {
+    /// Texels along each axis of the tables.
+    pub table_size: usize,
+    /// Formats of the table files.
+    pub containers: Vec<Container>,
+    /// Languages of the include; WGSL is always there.
+    pub targets: Vec<Target>,
+    /// Whether to bake the table for code that implements the published technique, too.
+    pub compatible: bool,
+    /// Quads of each region on which the tables are measured; 0 for no measurement.
+    pub quads: usize,
+}
+
+impl Default for Contents {
+    fn default() -> Self {
+        Self {
+            table_size: crate::TABLE_SIZE,
+            containers: Container::ALL.to_vec(),
+            targets: Target::ALL.to_vec(),
+            compatible: true,
+            quads: 200,
+        }
+    }
+}
+
+/// The accuracy of a table, in all and by region.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Measured {
+    /// On all quads.
+    pub all: Accuracy,
+    /// In each of [`REGIONS`].
+    pub regions: Vec<Accuracy>,
+}
+
+/// A package in memory.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Package {
+    /// Relative path with `/` between folders, and bytes.
+    pub files: Vec<(String, Vec<u8>)>,
+    /// Accuracy of the include with its table.
+    pub native: Option<Measured>,
+    /// Accuracy of the published technique with the compatible table.
+    pub compatible: Option<Measured>,
+}
+
+/// Why a package could not be made.
+#[derive(Debug, thiserror::Error)]
+pub enum PackageError {
+    /// The include could not be translated.
+    #[error(transparent)]
+    Translate(#[from] TranslateError),
+    /// A table could not be written in its format.
+    #[error(transparent)]
+    Container(#[from] ContainerError),
+}
+
+/// A step of [`build`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// A table is baked.
+    Bake(Layout),
+    /// A table is measured.
+    Measure(Layout),
+    /// The include is translated.
+    Translate,
+}
+
+/// Makes a package: bakes the tables of a reflectance model, measures them, translates the include.
+///
+/// `progress` is told each step and the share of it done, 0…1, from any thread.
+///
+/// # Errors
+///
+/// If the include is broken or a format refuses a table.
+pub fn build(
+    family: &dyn Family,
+    contents: &Contents,
+    progress: &(dyn Fn(Step, f64) + Sync),
+) -> Result<Package, PackageError> {
+    let mut package = Package { files: Vec::new(), native: None, compatible: None };
+    for layout in [Layout::Native, Layout::Compatible] {
+        let (settings, technique, name) = match layout {
+            Layout::Native => (Settings::native(contents.table_size), Technique::Include, "ltc"),
+            Layout::Compatible if !contents.compatible => continue,
+            Layout::Compatible => {
+                (Settings::compatible(contents.table_size), Technique::Published, "ltc_compatible")
+            }
+        };
+        let fitted = fit::bake(family, settings, &|share| progress(Step::Bake(layout), share));
+        let table = Table::pack(&fitted);
+        for container in &contents.containers {
+            let path = format!("table/{name}.{}", container.extension());
+            package.files.push((path, container.write(&table)?));
+        }
+        if contents.quads > 0 {
+            let measured = measure(&table, technique, family, contents.quads, &|share| {
+                progress(Step::Measure(layout), share);
+            });
+            match layout {
+                Layout::Native => package.native = Some(measured),
+                Layout::Compatible => package.compatible = Some(measured),
+            }
+        }
+    }
+    let mut text = |path: &str, text: String| package.files.push((path.to_owned(), text.into_bytes()));
+    text("wgsl/ltc.wgsl", crate::WGSL_INCLUDE.to_owned());
+    text("wgsl/evaluate.wgsl", crate::WGSL_EVALUATE.to_owned());
+    for (index, target) in contents.targets.iter().enumerate() {
+        text(target.path(), translate::include(*target)?);
+        progress(Step::Translate, (index + 1) as f64 / contents.targets.len() as f64);
+    }
+    text("LICENSE-MIT", include_str!("../../LICENSE-MIT").to_owned());
+    text("LICENSE-APACHE", include_str!("../../LICENSE-APACHE").to_owned());
+    package.files.push((translate::SPIRV_PATH.to_owned(), translate::spirv()?));
+    package.files.push(("README.md".to_owned(), guide::guide(contents, &package).into_bytes()));
+    package.files.sort();
+    Ok(package)
+}
+
+/// Measures a table in every region.
+pub fn measure(
+    table: &Table,
+    technique: Technique,
+    family: &dyn Family,
+    quads: usize,
+    progress: &dyn Fn(f64),
+) -> Measured {
+    let mut all = Vec::new();
+    let regions = REGIONS
+        .iter()
+        .enumerate()
+        .map(|(index, region)| {
+            let random = report::random_quads(*region, quads);
+            let accuracy = report::accuracy(table, technique, family, &random);
+            all.extend(random);
+            progress(index as f64 / REGIONS.len() as f64);
+            accuracy
+        })
+        .collect();
+    let all = report::accuracy(table, technique, family, &all);
+    progress(1.0);
+    Measured { all, regions }
+}
