@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 
 /// A bidirectional reflectance distribution function without its Fresnel factor.
 ///
-/// Implement it to bake a table for a material model of your own; see [`crate::fit::bake`].
+/// Implement it to bake a table for a material model of your own; see `fit::bake`.
 pub trait Brdf: Sync {
     /// The value f(view, light) in 1/sr, without the cosine; 0 when either direction is below the
     /// surface.

@@ -1,29 +1,49 @@
-//! Lights as the host prepares them.
+//! Facts about the outlines of lights.
 
 use glam::DVec3;
 
-/// Whether four points in order are the corners of a convex quad, so that `ltc_quad` may take it; any
-/// other polygon goes through the polygon functions, vertex by vertex.
+/// Share of the longest side's square below which a corner counts as straight: an order above what rounding a
+/// rectangle's vertices to f32 can bend it by.
+const STRAIGHT: f64 = 1e-6;
+
+/// Whether `points` are the vertices of a convex quad, which is what `ltc_quad` takes.
 ///
-/// Repeated and collinear corners are convex, within a millionth of the area. A quad without area, or one
-/// whose edges cross, is not.
+/// Repeated vertices make it a triangle, a segment or a point, all of which are convex; so do straight corners, as
+/// long as the outline does not run back over itself. Corners that are concave by no more than rounding to f32 can
+/// bend them count as straight.
 ///
 /// ```
 /// use glam::DVec3;
-/// let corners = [DVec3::ZERO, DVec3::X, DVec3::X + DVec3::Y, DVec3::Y];
-/// assert!(softbox::light::is_convex_quad(&corners));
-/// let dart = [DVec3::ZERO, DVec3::X, DVec3::new(0.2, 0.2, 0.0), DVec3::Y];
-/// assert!(!softbox::light::is_convex_quad(&dart));
+/// use softbox::light::is_convex_quad;
+///
+/// let square = [DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0), DVec3::Y];
+/// assert!(is_convex_quad(&square));
+/// let bow_tie = [square[0], square[2], square[1], square[3]];
+/// assert!(!is_convex_quad(&bow_tie));
 /// ```
 pub fn is_convex_quad(points: &[DVec3]) -> bool {
-    let &[a, b, c, d] = points else { return false };
-    // Any scale, so that no square leaves the range of numbers.
-    let extent = [b - a, c - a, d - a].iter().map(|v| v.abs().max_element()).fold(0.0, f64::max);
-    if extent <= 0.0 || !extent.is_finite() {
+    let &[a, b, c, d] = points else {
+        return false;
+    };
+    let extent = points.iter().map(|&point| (point - a).abs().max_element()).fold(0.0, f64::max);
+    if !extent.is_finite() {
         return false;
     }
+    if extent == 0.0 {
+        return true;
+    }
+    // Sides in units of the quad's size, so that no product leaves the range of f64.
     let sides = [b - a, c - b, d - c, a - d].map(|side| side / extent);
-    let area = ((c - a) / extent).cross((d - b) / extent);
-    let least = -1e-6 * area.length_squared();
-    area.length_squared() > 0.0 && (0..4).all(|i| sides[i].cross(sides[(i + 1) % 4]).dot(area) >= least)
+    let present: Vec<DVec3> =
+        sides.into_iter().filter(|side| side.length_squared() > STRAIGHT * STRAIGHT).collect();
+    let normal = ((c - a) / extent).cross((d - b) / extent).normalize_or_zero();
+    let corners = present.iter().zip(present.iter().cycle().skip(1));
+    corners.into_iter().all(|(before, after)| {
+        let turn = before.cross(*after);
+        let turn_forward = turn.dot(normal);
+        let straight = turn.length() <= STRAIGHT;
+        // A quad of two distinct points runs back over itself at both, which harms nothing.
+        let back = straight && before.dot(*after) < 0.0 && present.len() > 2;
+        (straight || turn_forward > 0.0) && !back
+    })
 }

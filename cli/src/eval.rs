@@ -155,8 +155,8 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
 fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
     let text = std::str::from_utf8(line).map_err(|_| anyhow::anyhow!("the line is not UTF-8 text"))?;
     let value: Value = serde_json::from_str(text).map_err(|error| {
-        if error.to_string().contains("out of range") {
-            anyhow::anyhow!("a number is not finite: it is beyond what double precision holds")
+        if error.to_string().contains("out of range") || text.contains("NaN") || text.contains("Infinity") {
+            anyhow::anyhow!("a number is not finite")
         } else {
             anyhow::anyhow!("the line is not JSON: {error}")
         }

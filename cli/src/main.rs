@@ -5,6 +5,7 @@ mod eval;
 mod model;
 mod package;
 mod progress;
+mod render;
 
 use clap::{Parser, Subcommand};
 
@@ -24,6 +25,8 @@ enum Command {
     Build(package::BuildArguments),
     /// Bake one table into one file.
     Bake(bake::BakeArguments),
+    /// Render a scene file, on a device and by numerical integration.
+    Render(render::RenderArguments),
     /// Evaluate surfaces and lights given as JSON Lines.
     Eval(eval::EvalArguments),
 }
@@ -32,6 +35,7 @@ fn main() {
     let result = match Arguments::parse().command {
         Command::Build(arguments) => package::build(&arguments),
         Command::Bake(arguments) => bake::bake(&arguments),
+        Command::Render(arguments) => render::render(&arguments),
         Command::Eval(arguments) => eval::eval(&arguments),
     };
     if let Err(error) = result {

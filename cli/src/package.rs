@@ -41,12 +41,12 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
             Step::Measure(_) => "Measuring",
             Step::Translate => "Translating",
         };
-        if let Ok(mut shown) = shown.lock() {
-            if *shown != Some(step) {
-                *shown = Some(step);
-                bar.reset();
-                bar.set_message(what);
-            }
+        if let Ok(mut shown) = shown.lock()
+            && *shown != Some(step)
+        {
+            *shown = Some(step);
+            bar.reset();
+            bar.set_message(what);
         }
         progress::advance(&bar, share);
     })?;

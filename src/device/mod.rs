@@ -1,7 +1,11 @@
 //! Evaluation on a wgpu adapter.
 
+#[cfg(feature = "scene")]
+mod render;
 mod run;
 
+#[cfg(feature = "scene")]
+pub use render::RenderError;
 pub use run::{Device, DeviceError, Program};
 
 use bytemuck::{Pod, Zeroable};

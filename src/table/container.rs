@@ -106,7 +106,7 @@ fn ktx(table: &Table) -> Vec<u8> {
     // The basic data format descriptor: RGB with BT.709 primaries, linear, texel block of 8 bytes.
     put(DESCRIPTOR_LENGTH);
     put(0);
-    put(2 | (DESCRIPTOR_LENGTH - 4) << 16);
+    put(2 | ((DESCRIPTOR_LENGTH - 4) << 16));
     put(u32::from_le_bytes([1, 1, 1, 0]));
     put(0);
     put(8);
@@ -114,7 +114,7 @@ fn ktx(table: &Table) -> Vec<u8> {
     // Each sample: bit offset, bit length − 1, channel with the float and signed flags; position;
     // the range −1…1 as floats.
     for (index, channel) in [0_u32, 1, 2, 15].into_iter().enumerate() {
-        put(16 * index as u32 | 15 << 16 | (channel | 0xC0) << 24);
+        put((16 * index as u32) | (15 << 16) | ((channel | 0xC0) << 24));
         put(0);
         put((-1.0_f32).to_bits());
         put(1.0_f32.to_bits());

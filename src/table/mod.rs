@@ -54,6 +54,7 @@ impl Default for Table {
 }
 
 impl Table {
+    #[cfg(feature = "bake")]
     pub(crate) fn new(size: usize, texels: Vec<[f16; 4]>) -> Self {
         Self { size, texels }
     }

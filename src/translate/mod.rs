@@ -105,7 +105,7 @@ pub fn include(target: Target) -> Result<String, TranslateError> {
 ///
 /// # Errors
 ///
-/// As [`include`].
+/// As [`include()`].
 pub fn spirv() -> Result<Vec<u8>, TranslateError> {
     kernel_spirv(&format!("{WGSL_INCLUDE}\n{WGSL_EVALUATE}"), "evaluate")
 }

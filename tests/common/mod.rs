@@ -543,11 +543,12 @@ pub fn check(what: &str, cases: &[Case], exact: &[[f64; 3]], values: &[[f32; 3]]
         let physical = (0.0..=1.0).contains(&diffuse)
             && (0.0..=albedo).contains(&specular)
             && (0.0..=specular * (1.0 + 1e-6)).contains(&fresnel);
-        if !physical || !(error <= limit) {
+        let within = error <= limit;
+        if !physical || !within {
             offenders.push((i, error));
         }
         let entry = worst.entry(case.family).or_insert((0.0, i));
-        if !(error <= entry.0) {
+        if error > entry.0 || error.is_nan() {
             *entry = (error, i);
         }
     }

@@ -1,0 +1,269 @@
+// Draws a scene, each pixel's radiance into a storage buffer. Appended to ltc.wgsl.
+//
+// One invocation draws one pixel of a band of rows; dispatch (number of pixels + 63) / 64 workgroups.
+// Light falls directly from each light on each surface: nothing casts a shadow.
+
+/// Camera, picture and counts.
+struct RenderSettings {
+    position: vec3<f32>,
+    /// Pixels in a row.
+    width: u32,
+    forward: vec3<f32>,
+    /// Rows of the whole picture.
+    height: u32,
+    /// To the right edge of a picture as wide as high, at distance 1.
+    right: vec3<f32>,
+    /// First row of the band.
+    row: u32,
+    /// To the upper edge of the picture, at distance 1.
+    up: vec3<f32>,
+    /// Rows of the band.
+    rows: u32,
+    background: vec3<f32>,
+    object_count: u32,
+    light_count: u32,
+    sample_count: u32,
+    spare_a: u32,
+    spare_b: u32,
+}
+
+/// A surface and its material.
+struct RenderObject {
+    centre: vec3<f32>,
+    /// RENDER_PLANE, RENDER_BOX or RENDER_SPHERE.
+    kind: u32,
+    /// Unit vectors: along the sides of a rectangle, then its normal, or along the edges of a box.
+    axis_x: vec3<f32>,
+    /// Half the length along axis_x, or the radius of a sphere.
+    extent_x: f32,
+    axis_y: vec3<f32>,
+    extent_y: f32,
+    axis_z: vec3<f32>,
+    extent_z: f32,
+    base_colour: vec3<f32>,
+    roughness_from: f32,
+    f0: vec3<f32>,
+    roughness_to: f32,
+    f90: vec3<f32>,
+    spare_a: f32,
+    roughness_start: vec3<f32>,
+    spare_b: f32,
+    /// Change of the share of roughness_to per unit of length.
+    roughness_gradient: vec3<f32>,
+    spare_c: f32,
+}
+
+/// A polygon light: `count` vertices from `first` on.
+struct RenderLight {
+    radiance: vec3<f32>,
+    first: u32,
+    /// Unit normal of the emitting side.
+    normal: vec3<f32>,
+    count: u32,
+    /// Sum of RENDER_TWO_SIDED and RENDER_CONVEX_QUAD, where they apply.
+    flags: u32,
+    spare_a: u32,
+    spare_b: u32,
+    spare_c: u32,
+}
+
+/// What a ray meets first.
+struct RenderHit {
+    position: vec3<f32>,
+    /// Along the ray.
+    distance: f32,
+    normal: vec3<f32>,
+    /// Index of the object.
+    object: u32,
+}
+
+const RENDER_PLANE: u32 = 0u;
+const RENDER_BOX: u32 = 1u;
+const RENDER_TWO_SIDED: u32 = 1u;
+/// The light has four vertices and is convex.
+const RENDER_CONVEX_QUAD: u32 = 2u;
+/// Farther than any surface.
+const RENDER_FAR: f32 = 1e30;
+
+@group(0) @binding(0) var<storage, read> settings: RenderSettings;
+@group(0) @binding(1) var<storage, read> objects: array<RenderObject>;
+@group(0) @binding(2) var<storage, read> lights: array<RenderLight>;
+/// The fourth component is not used.
+@group(0) @binding(3) var<storage, read> vertices: array<vec4<f32>>;
+/// Where in a pixel to sample it, 0 to 1.
+@group(0) @binding(4) var<storage, read> samples: array<vec2<f32>>;
+/// Radiance of each pixel of the band, and 1.
+@group(0) @binding(5) var<storage, read_write> pixels: array<vec4<f32>>;
+@group(0) @binding(6) var table: texture_2d_array<f32>;
+@group(0) @binding(7) var table_sampler: sampler;
+
+fn render_keep_sign(value: f32) -> f32 {
+    return select(value, select(-1e-20, 1e-20, value >= 0.0), abs(value) < 1e-20);
+}
+
+/// The first hit with an object in front of `origin`; its distance is RENDER_FAR if there is none. The
+/// position is put back onto the surface, so that its distance from a light that touches it is exact.
+fn render_meet(object: RenderObject, origin: vec3<f32>, direction: vec3<f32>) -> RenderHit {
+    var hit: RenderHit;
+    hit.distance = RENDER_FAR;
+    let offset = origin - object.centre;
+    if (object.kind == RENDER_PLANE) {
+        let distance = -dot(offset, object.axis_z) / render_keep_sign(dot(direction, object.axis_z));
+        let place = offset + direction * distance;
+        let across = dot(place, object.axis_x);
+        let along = dot(place, object.axis_y);
+        if (distance > 0.0 && distance < RENDER_FAR && abs(across) <= object.extent_x && abs(along) <= object.extent_y) {
+            hit.distance = distance;
+            hit.position = object.centre + object.axis_x * across + object.axis_y * along;
+            hit.normal = object.axis_z;
+        }
+        return hit;
+    }
+    if (object.kind == RENDER_BOX) {
+        let start = vec3<f32>(dot(offset, object.axis_x), dot(offset, object.axis_y), dot(offset, object.axis_z));
+        let along = vec3<f32>(dot(direction, object.axis_x), dot(direction, object.axis_y), dot(direction, object.axis_z));
+        let inverse = 1.0 / vec3<f32>(render_keep_sign(along.x), render_keep_sign(along.y), render_keep_sign(along.z));
+        let extent = vec3<f32>(object.extent_x, object.extent_y, object.extent_z);
+        let one = (-extent - start) * inverse;
+        let other = (extent - start) * inverse;
+        let low = min(one, other);
+        let high = max(one, other);
+        let enter = max(max(low.x, low.y), low.z);
+        let leave = min(min(high.x, high.y), high.z);
+        if (enter > leave || leave <= 0.0) {
+            return hit;
+        }
+        let outside = enter > 0.0;
+        let distance = select(leave, enter, outside);
+        let times = select(high, low, outside);
+        let on_x = times.x == distance;
+        let on_y = !on_x && times.y == distance;
+        let face = vec3<f32>(select(0.0, 1.0, on_x), select(0.0, 1.0, on_y), select(1.0, 0.0, on_x || on_y));
+        let place = start + along * distance;
+        let side = select(vec3<f32>(-1.0), vec3<f32>(1.0), place >= vec3<f32>(0.0));
+        let local = mix(place, side * extent, face);
+        let normal = side * face;
+        hit.distance = distance;
+        hit.position = object.centre + object.axis_x * local.x + object.axis_y * local.y + object.axis_z * local.z;
+        hit.normal = object.axis_x * normal.x + object.axis_y * normal.y + object.axis_z * normal.z;
+        return hit;
+    }
+    let half = -dot(offset, direction);
+    // From the point of the ray next to the centre: the usual discriminant cancels for distant spheres.
+    let aside = offset + direction * half;
+    let depth_squared = object.extent_x * object.extent_x - dot(aside, aside);
+    if (depth_squared < 0.0) {
+        return hit;
+    }
+    let depth = sqrt(max(depth_squared, 1e-30));
+    let distance = select(half + depth, half - depth, half > depth);
+    if (distance > 0.0) {
+        hit.distance = distance;
+        hit.normal = ltc_direction(offset + direction * distance);
+        hit.position = object.centre + hit.normal * object.extent_x;
+    }
+    return hit;
+}
+
+/// Distance along the ray at which it meets a light, or RENDER_FAR.
+fn render_meet_light(light: RenderLight, origin: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let first = vertices[light.first].xyz;
+    let distance = dot(first - origin, light.normal) / render_keep_sign(dot(direction, light.normal));
+    if (distance <= 0.0 || distance >= RENDER_FAR) {
+        return RENDER_FAR;
+    }
+    let place = origin + direction * distance;
+    let size = abs(light.normal);
+    let drop_x = size.x >= size.y && size.x >= size.z;
+    let drop_y = !drop_x && size.y >= size.z;
+    // A ray to one side within the plane crosses the outline of what surrounds it an odd number of times.
+    var inside = false;
+    var start = vertices[light.first + light.count - 1u].xyz - place;
+    for (var i = 0u; i < light.count; i++) {
+        let end = vertices[light.first + i].xyz - place;
+        let a = select(select(start.xy, start.zx, drop_y), start.yz, drop_x);
+        let b = select(select(end.xy, end.zx, drop_y), end.yz, drop_x);
+        if ((a.y > 0.0) != (b.y > 0.0)) {
+            inside = inside != (a.x + (b.x - a.x) * (a.y / (a.y - b.y)) > 0.0);
+        }
+        start = end;
+    }
+    return select(RENDER_FAR, distance, inside);
+}
+
+/// Radiance that a surface point reflects of all lights.
+fn render_shade(hit: RenderHit, view: vec3<f32>) -> vec3<f32> {
+    let object = objects[hit.object];
+    let share = clamp(dot(hit.position - object.roughness_start, object.roughness_gradient), 0.0, 1.0);
+    let roughness = mix(object.roughness_from, object.roughness_to, share);
+    let surface = ltc_surface(hit.position, hit.normal, view, roughness);
+    let lobe = ltc_lobe_from_table(surface, table, table_sampler, f32(textureDimensions(table).x));
+    var sum = vec3<f32>(0.0);
+    for (var index = 0u; index < settings.light_count; index++) {
+        let light = lights[index];
+        let first = light.first;
+        let two_sided = (light.flags & RENDER_TWO_SIDED) != 0u;
+        var value: vec3<f32>;
+        if ((light.flags & RENDER_CONVEX_QUAD) != 0u) {
+            value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz,
+                vertices[first + 3u].xyz, two_sided);
+        } else {
+            var polygon = ltc_polygon_begin(surface, vertices[first].xyz);
+            for (var i = 1u; i < light.count; i++) {
+                ltc_polygon_add(&polygon, surface, lobe, vertices[first + i].xyz);
+            }
+            value = ltc_polygon_end(&polygon, surface, lobe, two_sided);
+        }
+        sum += light.radiance * (object.base_colour * value.x + ltc_reflectance(value, object.f0, object.f90));
+    }
+    return sum;
+}
+
+/// Radiance along a ray.
+fn render_trace(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
+    var hit: RenderHit;
+    hit.distance = RENDER_FAR;
+    for (var index = 0u; index < settings.object_count; index++) {
+        let next = render_meet(objects[index], origin, direction);
+        if (next.distance < hit.distance) {
+            hit = next;
+            hit.object = index;
+        }
+    }
+    var radiance = settings.background;
+    var nearest = hit.distance;
+    for (var index = 0u; index < settings.light_count; index++) {
+        let light = lights[index];
+        let distance = render_meet_light(light, origin, direction);
+        if (distance < nearest) {
+            nearest = distance;
+            let emits = (light.flags & RENDER_TWO_SIDED) != 0u || dot(light.normal, direction) < 0.0;
+            radiance = select(vec3<f32>(0.0), light.radiance, emits);
+        }
+    }
+    if (hit.distance < RENDER_FAR && hit.distance <= nearest) {
+        hit.normal = select(hit.normal, -hit.normal, dot(hit.normal, direction) > 0.0);
+        radiance = render_shade(hit, -direction);
+    }
+    return radiance;
+}
+
+@compute @workgroup_size(64)
+fn render(@builtin(global_invocation_id) invocation: vec3<u32>) {
+    let index = invocation.x;
+    if (index >= settings.width * settings.rows) {
+        return;
+    }
+    let row = index / settings.width;
+    let corner = vec2<f32>(f32(index - row * settings.width), f32(settings.row + row));
+    let size = vec2<f32>(f32(settings.width), f32(settings.height));
+    var sum = vec3<f32>(0.0);
+    for (var i = 0u; i < settings.sample_count; i++) {
+        let at = corner + samples[i];
+        let across = (2.0 * at.x - size.x) / size.y;
+        let upward = 1.0 - 2.0 * at.y / size.y;
+        let direction = ltc_direction(settings.forward + settings.right * across + settings.up * upward);
+        sum += render_trace(settings.position, direction);
+    }
+    pixels[index] = vec4<f32>(sum / f32(settings.sample_count), 1.0);
+}
