@@ -20,21 +20,22 @@ use softbox::shade::{
 use softbox::table::Table;
 use softbox::truth;
 
-/// Evaluate surfaces and lights given as JSON Lines, one case a line:
-///
-/// {"surface":{"position":[0,0,0],"normal":[0,0,1],"view":[0.6,0,0.8],"roughness":0.5},
-///  "light":{"shape":"polygon","points":[[x,y,z],...],"two_sided":false}}
-///
-/// (on one line). normal and view (towards the eye) need not be unit; two_sided may be left out;
-/// unknown fields are ignored. The polygon emits from the side from which its points run
-/// counter-clockwise, with radiance 1. One line each is written:
-///
-/// {"diffuse":d,"specular":s,"fresnel":f}
-///
-/// with the integrals over the light's solid angle of cos/pi, of f cos for F = 1, and of
-/// f cos (1 - v.h)^5. The model is GGX with height-correlated Smith masking.
+/// The long help.
+pub const HELP: &str = r#"Evaluate surfaces and lights given as JSON Lines, one case a line:
+
+{"surface":{"position":[0,0,0],"normal":[0,0,1],"view":[0.6,0,0.8],"roughness":0.5},
+ "light":{"shape":"polygon","points":[[x,y,z],...],"two_sided":false}}
+
+(on one line). normal and view (towards the eye) need not be unit; two_sided may be left out;
+unknown fields are ignored. The polygon emits from the side from which its points run
+counter-clockwise, with radiance 1. One line each is written:
+
+{"diffuse":d,"specular":s,"fresnel":f}
+
+with the integrals over the light's solid angle of cos/pi, of f cos for F = 1, and of
+f cos (1 - v.h)^5. The model is GGX with height-correlated Smith masking."#;
+
 #[derive(Args)]
-#[command(verbatim_doc_comment)]
 pub struct EvalArguments {
     /// What evaluates.
     #[arg(long, value_enum, default_value = "cpu")]

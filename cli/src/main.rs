@@ -28,6 +28,7 @@ enum Command {
     /// Render a scene file, on a device and by numerical integration.
     Render(render::RenderArguments),
     /// Evaluate surfaces and lights given as JSON Lines.
+    #[command(long_about = eval::HELP)]
     Eval(eval::EvalArguments),
 }
 

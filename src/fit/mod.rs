@@ -137,16 +137,27 @@ pub fn bake(family: &dyn Family, settings: Settings, progress: &(dyn Fn(f64) + S
         .map(|column| {
             let alpha = layout.alpha(column as f64 / last);
             let brdf = family.at(alpha.sqrt());
-            // Seen along the normal the lobe is round, and its width goes from 2α to about α.
-            let mut start = [0.0, -2.0, 0.0, 2.0 - alpha];
+            let mut start = None;
             let mut texels = Vec::with_capacity(size);
             for step in 0..size {
                 let row = if layout == Layout::Native { size - 1 - step } else { step };
                 let cosine = layout.cosine(row as f64 / last);
                 let target = Target::new(brdf.as_ref(), cosine, nodes);
-                let lobe =
-                    target.fit(decode(Layout::Native, &start, alpha, cosine), horizon, schlick_weight, 60);
-                start = encode(Layout::Native, &lobe, alpha, cosine);
+                // Seen along the normal a lobe is round: as narrow as the mirror's, 2α to about α, or as
+                // wide as the cosine. From there on the last texel's lobe leads.
+                let starts = match start {
+                    Some(start) => vec![decode(Layout::Native, &start, alpha, cosine)],
+                    None => vec![
+                        decode(Layout::Native, &[0.0, -2.0, 0.0, 2.0 - alpha], alpha, cosine),
+                        Lobe::IDENTITY,
+                    ],
+                };
+                let fits = starts.into_iter().map(|start| {
+                    let lobe = target.fit(start, horizon, schlick_weight, 60);
+                    (target.normal(&lobe, horizon, schlick_weight).loss, lobe)
+                });
+                let (_, lobe) = fits.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((0.0, Lobe::IDENTITY));
+                start = Some(encode(Layout::Native, &lobe, alpha, cosine));
                 texels.push((
                     Texel {
                         parameters: encode(layout, &lobe, alpha, cosine),
