@@ -419,8 +419,8 @@ fn ltc_far_quad(a: vec3<f32>, side_b: vec3<f32>, side_c: vec3<f32>, side_d: vec3
 /// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
 /// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
 /// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
-/// An edge whose ends are n times as far away as the edge itself may add 4e-8 n: so much do the
-/// coordinates' own digits leave open.
+/// Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
+/// place of 1e-6: so much do the coordinates' own digits leave open.
 fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
     let origin = surface.position * LTC_HEADROOM;
     let a_far = a * LTC_HEADROOM;

@@ -580,8 +580,8 @@ vec3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe,
 // Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
 // least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
 // 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
-// An edge whose ends are n times as far away as the edge itself may add 4e-8 n: so much do the
-// coordinates' own digits leave open.
+// Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
+// place of 1e-6: so much do the coordinates' own digits leave open.
 vec3 ltc_quad(LtcSurface surface, LtcLobe lobe, vec3 a, vec3 b, vec3 c, vec3 d, bool two_sided) {
     vec3 lobe_sum = vec3(0.0);
     LtcPolygon polygon = LtcPolygon(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
