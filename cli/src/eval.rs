@@ -86,8 +86,11 @@ struct Case {
     two_sided: bool,
 }
 
-/// Lines that are evaluated together: few enough to answer soon, enough to keep all cores busy.
-const CHUNK: usize = 4096;
+/// Lines that are evaluated together: few enough to answer soon, enough to keep all cores busy; on a
+/// device enough to be worth its start.
+fn chunk(on: On) -> usize {
+    if on == On::Gpu { 65_536 } else { 4096 }
+}
 
 pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
     let input: Box<dyn BufRead> = match &arguments.file {
@@ -146,7 +149,7 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
                 return Err(error.context(format!("line {number}")));
             }
         }
-        if cases.len() == CHUNK {
+        if cases.len() == chunk(arguments.on) {
             flush(&mut cases)?;
         }
     }

@@ -33,6 +33,11 @@ enum Command {
 }
 
 fn main() {
+    if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
+        // Some drivers complain on standard error when there is no such folder, though nothing is put there.
+        // SAFETY: no other thread runs yet.
+        unsafe { std::env::set_var("XDG_RUNTIME_DIR", std::env::temp_dir()) };
+    }
     let result = match Arguments::parse().command {
         Command::Build(arguments) => package::build(&arguments),
         Command::Bake(arguments) => bake::bake(&arguments),
