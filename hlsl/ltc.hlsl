@@ -415,23 +415,178 @@ float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e)
     return (((((_e137 + _e138) + _e140) + _e142) + _e144) + _e146);
 }
 
-// Vector form factor, times 2 pi and signed, of a quad above the horizon from its first vertex `a`
-// and the sides from there to the others, all much shorter than the distance.
-float3 ltc_far_quad(float3 a, float3 side_b, float3 side_c, float3 side_d)
+// Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
+// on or near it and the offsets of its vertices from there, all much shorter than the distance.
+float3 ltc_far_pentagon(float3 origin, float3 a, float3 b, float3 c, float3 d, float3 e)
 {
-    float3 reference = (a * rsqrt(max(dot(a, a), LTC_TINY)));
-    const float3 _e10 = ltc_offset(a, reference, (a + side_b), side_b);
-    const float3 _e12 = ltc_offset(a, reference, (a + side_c), side_c);
-    const float3 _e14 = ltc_offset(a, reference, (a + side_d), side_d);
-    float3 a_offset = (0.0).xxx;
-    float3 b = (reference + _e10);
-    float3 c = (reference + _e12);
-    float3 d = (reference + _e14);
-    const float3 _e20 = ltc_edge_about(reference, b, _e10, reference, a_offset);
-    const float3 _e21 = ltc_edge_about(reference, c, _e12, b, _e10);
-    const float3 _e23 = ltc_edge_about(reference, d, _e14, c, _e12);
-    const float3 _e25 = ltc_edge_about(reference, reference, a_offset, d, _e14);
-    return (((_e20 + _e21) + _e23) + _e25);
+    float3 reference = (origin * rsqrt(max(dot(origin, origin), LTC_TINY)));
+    const float3 _e12 = ltc_offset(origin, reference, (origin + a), a);
+    const float3 _e14 = ltc_offset(origin, reference, (origin + b), b);
+    const float3 _e16 = ltc_offset(origin, reference, (origin + c), c);
+    const float3 _e18 = ltc_offset(origin, reference, (origin + d), d);
+    const float3 _e20 = ltc_offset(origin, reference, (origin + e), e);
+    float3 a_unit = (reference + _e12);
+    float3 b_unit = (reference + _e14);
+    float3 c_unit = (reference + _e16);
+    float3 d_unit = (reference + _e18);
+    float3 e_unit = (reference + _e20);
+    const float3 _e26 = ltc_edge_about(reference, b_unit, _e14, a_unit, _e12);
+    const float3 _e27 = ltc_edge_about(reference, c_unit, _e16, b_unit, _e14);
+    const float3 _e29 = ltc_edge_about(reference, d_unit, _e18, c_unit, _e16);
+    const float3 _e31 = ltc_edge_about(reference, e_unit, _e20, d_unit, _e18);
+    const float3 _e33 = ltc_edge_about(reference, a_unit, _e12, e_unit, _e20);
+    return ((((_e26 + _e27) + _e29) + _e31) + _e33);
+}
+
+// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
+// `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
+// vertices make it a triangle. For a quad that is not convex use the polygon functions.
+//
+// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
+// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
+// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
+// Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
+// place of 1e-6: so much do the coordinates' own digits leave open.
+float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, float3 d, bool two_sided)
+{
+    float3 v_a = (float3)0;
+    float3 v_b = (float3)0;
+    float3 v_c = (float3)0;
+    float3 v_d = (float3)0;
+    float3 v_e = (float3)0;
+    float sum = (float)0;
+    float3 lobe_sum = (float3)0;
+
+    float3 origin = (surface.position * LTC_HEADROOM);
+    float3 a_far = (a * LTC_HEADROOM);
+    float3 a_full = (a_far - origin);
+    float3 b_full = ((b * LTC_HEADROOM) - origin);
+    float3 c_full = ((c * LTC_HEADROOM) - origin);
+    float3 d_full = ((d * LTC_HEADROOM) - origin);
+    const float _e22 = ltc_extent(a_full);
+    const float _e23 = ltc_extent(b_full);
+    const float _e25 = ltc_extent(c_full);
+    const float _e26 = ltc_extent(d_full);
+    float extent = max(max(_e22, _e23), max(_e25, _e26));
+    float scale = (1.0 / max(extent, LTC_TINY));
+    float3 side_b = (((b * LTC_HEADROOM) - a_far) * scale);
+    float3 side_c = (((c * LTC_HEADROOM) - a_far) * scale);
+    float3 side_d = (((d * LTC_HEADROOM) - a_far) * scale);
+    float3 p_a = (a_full * scale);
+    bool front = (dot(cross(side_c, (side_d - side_b)), p_a) < 0.0);
+    float size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
+    bool distant = (size_squared < (0.0625 * dot(p_a, p_a)));
+    float3 p_b = (distant ? side_b : (b_full * scale));
+    float3 p_c = (distant ? side_c : (c_full * scale));
+    float3 p_d = (distant ? side_d : (d_full * scale));
+    float a_height = dot(surface.normal, p_a);
+    float base_height = (distant ? a_height : 0.0);
+    float4 heights = float4(a_height, (base_height + dot(surface.normal, p_b)), (base_height + dot(surface.normal, p_c)), (base_height + dot(surface.normal, p_d)));
+    bool a_up = (heights.x > 0.0);
+    bool b_up = (heights.y > 0.0);
+    bool c_up = (heights.z > 0.0);
+    bool d_up = (heights.w > 0.0);
+    if (!((((a_up | b_up) | c_up) | d_up))) {
+        return (0.0).xxx;
+    }
+    float3 first = (distant ? (0.0).xxx : p_a);
+    v_a = first;
+    v_b = p_b;
+    v_c = p_c;
+    v_d = p_d;
+    v_e = p_d;
+    if (!((((a_up & b_up) & c_up) & d_up))) {
+        bool last_a = (b_up & !(a_up));
+        bool last_b = (c_up & !(b_up));
+        bool last_c = (d_up & !(c_up));
+        bool half_turn = (last_b | last_c);
+        bool turn = (last_a | last_c);
+        float3 half_a = (half_turn ? p_c : first);
+        float3 half_b = (half_turn ? p_d : p_b);
+        float3 half_c = (half_turn ? first : p_c);
+        float3 half_d = (half_turn ? p_b : p_d);
+        float4 half_heights = (half_turn ? heights.zwxy : heights);
+        float3 q_a = (turn ? half_b : half_a);
+        float3 q_b = (turn ? half_c : half_b);
+        float3 q_c = (turn ? half_d : half_c);
+        float3 q_d = (turn ? half_a : half_d);
+        float4 h = (turn ? half_heights.yzwx : half_heights);
+        bool up_b = (h.y > 0.0);
+        bool up_c = (h.z > 0.0);
+        float3 leave_from = (up_c ? q_c : (up_b ? q_b : q_a));
+        float3 leave_to = (up_c ? q_d : (up_b ? q_c : q_b));
+        float leave_high = (up_c ? h.z : (up_b ? h.y : h.x));
+        float leave_low = (up_c ? h.w : (up_b ? h.z : h.y));
+        float3 leave = (leave_from + ((leave_to - leave_from) * (leave_high / max((leave_high - leave_low), LTC_TINY))));
+        v_a = q_a;
+        v_b = (up_b ? q_b : leave);
+        v_c = (up_c ? q_c : leave);
+        v_d = leave;
+        v_e = (q_a + ((q_d - q_a) * (h.x / max((h.x - h.w), LTC_TINY))));
+    }
+    float3 _e169 = v_a;
+    const float3 _e170 = ltc_transform(lobe, _e169);
+    float3 _e171 = v_b;
+    const float3 _e172 = ltc_transform(lobe, _e171);
+    float3 _e173 = v_c;
+    const float3 _e174 = ltc_transform(lobe, _e173);
+    float3 _e175 = v_d;
+    const float3 _e176 = ltc_transform(lobe, _e175);
+    float3 _e177 = v_e;
+    const float3 _e178 = ltc_transform(lobe, _e177);
+    if (distant) {
+        float3 _e182 = v_a;
+        float3 _e183 = v_b;
+        float3 _e184 = v_c;
+        float3 _e185 = v_d;
+        float3 _e186 = v_e;
+        const float3 _e187 = ltc_far_pentagon(p_a, _e182, _e183, _e184, _e185, _e186);
+        sum = dot(surface.normal, _e187);
+        const float3 _e189 = ltc_transform(lobe, p_a);
+        float lobe_size = max(max(max(dot(_e170, _e170), dot(_e172, _e172)), max(dot(_e174, _e174), dot(_e176, _e176))), dot(_e178, _e178));
+        float lowest = (_e189.z + min(min(min(_e170.z, _e172.z), min(_e174.z, _e176.z)), _e178.z));
+        if (((lobe_size < (0.0625 * dot(_e189, _e189))) & (lowest > 0.0))) {
+            const float3 _e217 = ltc_far_pentagon(_e189, _e170, _e172, _e174, _e176, _e178);
+            lobe_sum = _e217;
+        } else {
+            const float3 _e223 = ltc_pentagon((_e189 + _e170), (_e189 + _e172), (_e189 + _e174), (_e189 + _e176), (_e189 + _e178));
+            lobe_sum = _e223;
+        }
+    } else {
+        float3 _e224 = v_a;
+        float3 _e225 = v_a;
+        float3 _e226 = v_a;
+        float3 a_unit = (_e224 * rsqrt(max(dot(_e225, _e226), LTC_TINY)));
+        float3 _e232 = v_b;
+        float3 _e233 = v_b;
+        float3 _e234 = v_b;
+        float3 b_unit = (_e232 * rsqrt(max(dot(_e233, _e234), LTC_TINY)));
+        float3 _e240 = v_c;
+        float3 _e241 = v_c;
+        float3 _e242 = v_c;
+        float3 c_unit = (_e240 * rsqrt(max(dot(_e241, _e242), LTC_TINY)));
+        float3 _e248 = v_d;
+        float3 _e249 = v_d;
+        float3 _e250 = v_d;
+        float3 d_unit = (_e248 * rsqrt(max(dot(_e249, _e250), LTC_TINY)));
+        float3 _e256 = v_e;
+        float3 _e257 = v_e;
+        float3 _e258 = v_e;
+        float3 e_unit = (_e256 * rsqrt(max(dot(_e257, _e258), LTC_TINY)));
+        const float3 _e264 = ltc_edge(b_unit, a_unit);
+        const float3 _e265 = ltc_edge(c_unit, b_unit);
+        const float3 _e267 = ltc_edge(d_unit, c_unit);
+        const float3 _e269 = ltc_edge(a_unit, e_unit);
+        float3 edges = (((_e264 + _e265) + _e267) + _e269);
+        const float _e274 = ltc_horizon_edge(e_unit, d_unit, surface.normal);
+        sum = (dot(surface.normal, edges) + _e274);
+        const float3 _e276 = ltc_pentagon(_e170, _e172, _e174, _e176, _e178);
+        lobe_sum = _e276;
+    }
+    float _e277 = sum;
+    float3 _e280 = lobe_sum;
+    const float3 _e283 = ltc_value(surface, lobe, (_e277 * LTC_OVER_TWO_PI), (_e280 * LTC_OVER_TWO_PI), front, two_sided);
+    return _e283;
 }
 
 // Starts a polygon at its first vertex.
@@ -543,12 +698,12 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe,
     const float _e20 = ltc_extent((b_far - origin));
     float extent = max(_e18, _e20);
     float _e23 = polygon.scale;
-    float scale = min(_e23, (1000000000000.0 / max(extent, 1e-25)));
-    float3 reference = ((first_far - origin) * scale);
-    float3 a = ((a_far - origin) * scale);
-    float3 b = ((b_far - origin) * scale);
-    float3 a_offset = ((a_far - first_far) * scale);
-    float3 b_offset = ((b_far - first_far) * scale);
+    float scale_1 = min(_e23, (1000000000000.0 / max(extent, 1e-25)));
+    float3 reference = ((first_far - origin) * scale_1);
+    float3 a = ((a_far - origin) * scale_1);
+    float3 b = ((b_far - origin) * scale_1);
+    float3 a_offset = ((a_far - first_far) * scale_1);
+    float3 b_offset = ((b_far - first_far) * scale_1);
     float _e40 = polygon.facing;
     polygon.facing = (_e40 + dot(cross(a_offset, b_offset), reference));
     polygon.previous = vertex;
@@ -593,174 +748,14 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe,
 // error is that of ltc_quad, and grows with the root of the number of vertices.
 float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, bool two_sided)
 {
-    float3 first = polygon.first;
-    ltc_polygon_add(polygon, surface, lobe, first);
+    float3 first_1 = polygon.first;
+    ltc_polygon_add(polygon, surface, lobe, first_1);
     float _e7 = polygon.facing;
     bool front = (_e7 < 0.0);
     float _e11 = polygon.diffuse;
     float3 _e15 = polygon.lobe_sum;
     const float3 _e18 = ltc_value(surface, lobe, (_e11 * LTC_OVER_TWO_PI), (_e15 * LTC_OVER_TWO_PI), front, two_sided);
     return _e18;
-}
-
-// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
-// `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
-// vertices make it a triangle. For a quad that is not convex use the polygon functions.
-//
-// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
-// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
-// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
-// Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
-// place of 1e-6: so much do the coordinates' own digits leave open.
-float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, float3 d, bool two_sided)
-{
-    float3 lobe_sum = (float3)0;
-    LtcPolygon polygon = (LtcPolygon)0;
-    float3 v_a = (float3)0;
-    float3 v_b = (float3)0;
-    float3 v_c = (float3)0;
-    float3 v_d = (float3)0;
-    float3 v_e = (float3)0;
-
-    float3 origin = (surface.position * LTC_HEADROOM);
-    float3 a_far = (a * LTC_HEADROOM);
-    float3 a_full = (a_far - origin);
-    float3 b_full = ((b * LTC_HEADROOM) - origin);
-    float3 c_full = ((c * LTC_HEADROOM) - origin);
-    float3 d_full = ((d * LTC_HEADROOM) - origin);
-    const float _e22 = ltc_extent(a_full);
-    const float _e23 = ltc_extent(b_full);
-    const float _e25 = ltc_extent(c_full);
-    const float _e26 = ltc_extent(d_full);
-    float extent = max(max(_e22, _e23), max(_e25, _e26));
-    float scale = (1.0 / max(extent, LTC_TINY));
-    float3 side_b = (((b * LTC_HEADROOM) - a_far) * scale);
-    float3 side_c = (((c * LTC_HEADROOM) - a_far) * scale);
-    float3 side_d = (((d * LTC_HEADROOM) - a_far) * scale);
-    float3 p_a = (a_full * scale);
-    bool front = (dot(cross(side_c, (side_d - side_b)), p_a) < 0.0);
-    float a_height = dot(surface.normal, p_a);
-    float size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
-    if ((size_squared < (0.0625 * dot(p_a, p_a)))) {
-        float b_rise = dot(surface.normal, side_b);
-        float c_rise = dot(surface.normal, side_c);
-        float d_rise = dot(surface.normal, side_d);
-        if (((a_height + max(max(0.0, b_rise), max(c_rise, d_rise))) <= 0.0)) {
-            return (0.0).xxx;
-        }
-        if (((a_height + min(min(0.0, b_rise), min(c_rise, d_rise))) > 0.0)) {
-            const float3 _e85 = ltc_far_quad(p_a, side_b, side_c, side_d);
-            float sum = dot(surface.normal, _e85);
-            const float3 _e87 = ltc_transform(lobe, p_a);
-            const float3 _e88 = ltc_transform(lobe, side_b);
-            const float3 _e89 = ltc_transform(lobe, side_c);
-            const float3 _e90 = ltc_transform(lobe, side_d);
-            float lobe_size = max(max(dot(_e88, _e88), dot(_e89, _e89)), dot(_e90, _e90));
-            float lobe_lowest = (_e87.z + min(min(0.0, _e88.z), min(_e89.z, _e90.z)));
-            if (((lobe_size < (0.0625 * dot(_e87, _e87))) & (lobe_lowest > 0.0))) {
-                const float3 _e113 = ltc_far_quad(_e87, _e88, _e89, _e90);
-                lobe_sum = _e113;
-            } else {
-                const float3 _e118 = ltc_pentagon(_e87, (_e87 + _e88), (_e87 + _e89), (_e87 + _e90), (_e87 + _e90));
-                lobe_sum = _e118;
-            }
-            float3 _e121 = lobe_sum;
-            const float3 _e124 = ltc_value(surface, lobe, (sum * LTC_OVER_TWO_PI), (_e121 * LTC_OVER_TWO_PI), front, two_sided);
-            return _e124;
-        }
-        const LtcPolygon _e125 = ltc_polygon_begin(surface, a);
-        polygon = _e125;
-        ltc_polygon_add(polygon, surface, lobe, b);
-        ltc_polygon_add(polygon, surface, lobe, c);
-        ltc_polygon_add(polygon, surface, lobe, d);
-        const float3 _e127 = ltc_polygon_end(polygon, surface, lobe, two_sided);
-        return _e127;
-    }
-    float3 p_b = (b_full * scale);
-    float3 p_c = (c_full * scale);
-    float3 p_d = (d_full * scale);
-    float4 heights = float4(a_height, dot(surface.normal, p_b), dot(surface.normal, p_c), dot(surface.normal, p_d));
-    bool a_up = (heights.x > 0.0);
-    bool b_up = (heights.y > 0.0);
-    bool c_up = (heights.z > 0.0);
-    bool d_up = (heights.w > 0.0);
-    if (!((((a_up | b_up) | c_up) | d_up))) {
-        return (0.0).xxx;
-    }
-    v_a = p_a;
-    v_b = p_b;
-    v_c = p_c;
-    v_d = p_d;
-    v_e = p_d;
-    if (!((((a_up & b_up) & c_up) & d_up))) {
-        bool last_a = (b_up & !(a_up));
-        bool last_b = (c_up & !(b_up));
-        bool last_c = (d_up & !(c_up));
-        bool half_turn = (last_b | last_c);
-        bool turn = (last_a | last_c);
-        float3 half_a = (half_turn ? p_c : p_a);
-        float3 half_b = (half_turn ? p_d : p_b);
-        float3 half_c = (half_turn ? p_a : p_c);
-        float3 half_d = (half_turn ? p_b : p_d);
-        float4 half_heights = (half_turn ? heights.zwxy : heights);
-        float3 q_a = (turn ? half_b : half_a);
-        float3 q_b = (turn ? half_c : half_b);
-        float3 q_c = (turn ? half_d : half_c);
-        float3 q_d = (turn ? half_a : half_d);
-        float4 h = (turn ? half_heights.yzwx : half_heights);
-        bool up_b = (h.y > 0.0);
-        bool up_c = (h.z > 0.0);
-        float3 leave_from = (up_c ? q_c : (up_b ? q_b : q_a));
-        float3 leave_to = (up_c ? q_d : (up_b ? q_c : q_b));
-        float leave_high = (up_c ? h.z : (up_b ? h.y : h.x));
-        float leave_low = (up_c ? h.w : (up_b ? h.z : h.y));
-        float3 leave = (leave_from + ((leave_to - leave_from) * (leave_high / max((leave_high - leave_low), LTC_TINY))));
-        v_a = q_a;
-        v_b = (up_b ? q_b : leave);
-        v_c = (up_c ? q_c : leave);
-        v_d = leave;
-        v_e = (q_a + ((q_d - q_a) * (h.x / max((h.x - h.w), LTC_TINY))));
-    }
-    float3 _e224 = v_a;
-    float3 _e225 = v_a;
-    float3 _e226 = v_a;
-    float3 a_unit = (_e224 * rsqrt(max(dot(_e225, _e226), LTC_TINY)));
-    float3 _e232 = v_b;
-    float3 _e233 = v_b;
-    float3 _e234 = v_b;
-    float3 b_unit = (_e232 * rsqrt(max(dot(_e233, _e234), LTC_TINY)));
-    float3 _e240 = v_c;
-    float3 _e241 = v_c;
-    float3 _e242 = v_c;
-    float3 c_unit = (_e240 * rsqrt(max(dot(_e241, _e242), LTC_TINY)));
-    float3 _e248 = v_d;
-    float3 _e249 = v_d;
-    float3 _e250 = v_d;
-    float3 d_unit = (_e248 * rsqrt(max(dot(_e249, _e250), LTC_TINY)));
-    float3 _e256 = v_e;
-    float3 _e257 = v_e;
-    float3 _e258 = v_e;
-    float3 e_unit = (_e256 * rsqrt(max(dot(_e257, _e258), LTC_TINY)));
-    const float3 _e264 = ltc_edge(b_unit, a_unit);
-    const float3 _e265 = ltc_edge(c_unit, b_unit);
-    const float3 _e267 = ltc_edge(d_unit, c_unit);
-    const float3 _e269 = ltc_edge(a_unit, e_unit);
-    float3 edges = (((_e264 + _e265) + _e267) + _e269);
-    const float _e274 = ltc_horizon_edge(e_unit, d_unit, surface.normal);
-    float sum_1 = (dot(surface.normal, edges) + _e274);
-    float3 _e276 = v_a;
-    const float3 _e277 = ltc_transform(lobe, _e276);
-    float3 _e278 = v_b;
-    const float3 _e279 = ltc_transform(lobe, _e278);
-    float3 _e280 = v_c;
-    const float3 _e281 = ltc_transform(lobe, _e280);
-    float3 _e282 = v_d;
-    const float3 _e283 = ltc_transform(lobe, _e282);
-    float3 _e284 = v_e;
-    const float3 _e285 = ltc_transform(lobe, _e284);
-    const float3 _e286 = ltc_pentagon(_e277, _e279, _e281, _e283, _e285);
-    const float3 _e291 = ltc_value(surface, lobe, (sum_1 * LTC_OVER_TWO_PI), (_e286 * LTC_OVER_TWO_PI), front, two_sided);
-    return _e291;
 }
 
 #endif // LTC_HLSL_INCLUDED

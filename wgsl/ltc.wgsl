@@ -397,19 +397,23 @@ fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<
         + ltc_edge(e_end, d_start) + ltc_edge(a_end, e_start) + ltc_edge(y, x);
 }
 
-/// Vector form factor, times 2 pi and signed, of a quad above the horizon from its first vertex `a`
-/// and the sides from there to the others, all much shorter than the distance.
-fn ltc_far_quad(a: vec3<f32>, side_b: vec3<f32>, side_c: vec3<f32>, side_d: vec3<f32>) -> vec3<f32> {
-    let reference = a * inverseSqrt(max(dot(a, a), LTC_TINY));
-    let b_offset = ltc_offset(a, reference, a + side_b, side_b);
-    let c_offset = ltc_offset(a, reference, a + side_c, side_c);
-    let d_offset = ltc_offset(a, reference, a + side_d, side_d);
-    let a_offset = vec3<f32>(0.0);
-    let b = reference + b_offset;
-    let c = reference + c_offset;
-    let d = reference + d_offset;
-    return ltc_edge_about(reference, b, b_offset, reference, a_offset) + ltc_edge_about(reference, c, c_offset, b, b_offset)
-        + ltc_edge_about(reference, d, d_offset, c, c_offset) + ltc_edge_about(reference, reference, a_offset, d, d_offset);
+/// Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
+/// on or near it and the offsets of its vertices from there, all much shorter than the distance.
+fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>) -> vec3<f32> {
+    let reference = origin * inverseSqrt(max(dot(origin, origin), LTC_TINY));
+    let a_offset = ltc_offset(origin, reference, origin + a, a);
+    let b_offset = ltc_offset(origin, reference, origin + b, b);
+    let c_offset = ltc_offset(origin, reference, origin + c, c);
+    let d_offset = ltc_offset(origin, reference, origin + d, d);
+    let e_offset = ltc_offset(origin, reference, origin + e, e);
+    let a_unit = reference + a_offset;
+    let b_unit = reference + b_offset;
+    let c_unit = reference + c_offset;
+    let d_unit = reference + d_offset;
+    let e_unit = reference + e_offset;
+    return ltc_edge_about(reference, b_unit, b_offset, a_unit, a_offset) + ltc_edge_about(reference, c_unit, c_offset, b_unit, b_offset)
+        + ltc_edge_about(reference, d_unit, d_offset, c_unit, c_offset) + ltc_edge_about(reference, e_unit, e_offset, d_unit, d_offset)
+        + ltc_edge_about(reference, a_unit, a_offset, e_unit, e_offset);
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
@@ -437,43 +441,17 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let p_a = a_full * scale;
     let front = dot(cross(side_c, side_d - side_b), p_a) < 0.0;
 
-    let a_height = dot(surface.normal, p_a);
+    // What is cut at the horizon: the vertices of a near light, the offsets of a distant one's from its
+    // first vertex, with the heights of the vertices over the surface.
     let size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
-    if (size_squared < 0.0625 * dot(p_a, p_a)) {
-        let b_rise = dot(surface.normal, side_b);
-        let c_rise = dot(surface.normal, side_c);
-        let d_rise = dot(surface.normal, side_d);
-        if (a_height + max(max(0.0, b_rise), max(c_rise, d_rise)) <= 0.0) {
-            return vec3<f32>(0.0);
-        }
-        if (a_height + min(min(0.0, b_rise), min(c_rise, d_rise)) > 0.0) {
-            let sum = dot(surface.normal, ltc_far_quad(p_a, side_b, side_c, side_d));
-            let l_a = ltc_transform(lobe, p_a);
-            let l_b = ltc_transform(lobe, side_b);
-            let l_c = ltc_transform(lobe, side_c);
-            let l_d = ltc_transform(lobe, side_d);
-            let lobe_size = max(max(dot(l_b, l_b), dot(l_c, l_c)), dot(l_d, l_d));
-            let lobe_lowest = l_a.z + min(min(0.0, l_b.z), min(l_c.z, l_d.z));
-            var lobe_sum: vec3<f32>;
-            if ((lobe_size < 0.0625 * dot(l_a, l_a)) & (lobe_lowest > 0.0)) {
-                lobe_sum = ltc_far_quad(l_a, l_b, l_c, l_d);
-            } else {
-                lobe_sum = ltc_pentagon(l_a, l_a + l_b, l_a + l_c, l_a + l_d, l_a + l_d);
-            }
-            return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
-        }
-        // A distant light on the horizon keeps its precision only in the streamed form.
-        var polygon = ltc_polygon_begin(surface, a);
-        ltc_polygon_add(&polygon, surface, lobe, b);
-        ltc_polygon_add(&polygon, surface, lobe, c);
-        ltc_polygon_add(&polygon, surface, lobe, d);
-        return ltc_polygon_end(&polygon, surface, lobe, two_sided);
-    }
-
-    let p_b = b_full * scale;
-    let p_c = c_full * scale;
-    let p_d = d_full * scale;
-    let heights = vec4<f32>(a_height, dot(surface.normal, p_b), dot(surface.normal, p_c), dot(surface.normal, p_d));
+    let distant = size_squared < 0.0625 * dot(p_a, p_a);
+    let p_b = select(b_full * scale, side_b, distant);
+    let p_c = select(c_full * scale, side_c, distant);
+    let p_d = select(d_full * scale, side_d, distant);
+    let a_height = dot(surface.normal, p_a);
+    let base_height = select(0.0, a_height, distant);
+    let heights = vec4<f32>(a_height, base_height + dot(surface.normal, p_b), base_height + dot(surface.normal, p_c),
+        base_height + dot(surface.normal, p_d));
     let a_up = heights.x > 0.0;
     let b_up = heights.y > 0.0;
     let c_up = heights.z > 0.0;
@@ -481,7 +459,8 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     if (!(a_up | b_up | c_up | d_up)) {
         return vec3<f32>(0.0);
     }
-    var v_a = p_a;
+    let first = select(p_a, vec3<f32>(0.0), distant);
+    var v_a = first;
     var v_b = p_b;
     var v_c = p_c;
     var v_d = p_d;
@@ -494,9 +473,9 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
         let last_c = d_up & !c_up;
         let half_turn = last_b | last_c;
         let turn = last_a | last_c;
-        let half_a = select(p_a, p_c, half_turn);
+        let half_a = select(first, p_c, half_turn);
         let half_b = select(p_b, p_d, half_turn);
-        let half_c = select(p_c, p_a, half_turn);
+        let half_c = select(p_c, first, half_turn);
         let half_d = select(p_d, p_b, half_turn);
         let half_heights = select(heights, heights.zwxy, half_turn);
         let q_a = select(half_a, half_b, turn);
@@ -517,15 +496,35 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
         v_d = leave;
         v_e = q_a + (q_d - q_a) * (h.x / max(h.x - h.w, LTC_TINY));
     }
-    let a_unit = v_a * inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
-    let b_unit = v_b * inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
-    let c_unit = v_c * inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
-    let d_unit = v_d * inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
-    let e_unit = v_e * inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
-    let edges = ltc_edge(b_unit, a_unit) + ltc_edge(c_unit, b_unit) + ltc_edge(d_unit, c_unit) + ltc_edge(a_unit, e_unit);
-    let sum = dot(surface.normal, edges) + ltc_horizon_edge(e_unit, d_unit, surface.normal);
-    let lobe_sum = ltc_pentagon(ltc_transform(lobe, v_a), ltc_transform(lobe, v_b), ltc_transform(lobe, v_c),
-        ltc_transform(lobe, v_d), ltc_transform(lobe, v_e));
+
+    let l_a = ltc_transform(lobe, v_a);
+    let l_b = ltc_transform(lobe, v_b);
+    let l_c = ltc_transform(lobe, v_c);
+    let l_d = ltc_transform(lobe, v_d);
+    let l_e = ltc_transform(lobe, v_e);
+    var sum: f32;
+    var lobe_sum: vec3<f32>;
+    if (distant) {
+        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e));
+        // The lobe's space stretches: there the light may be near, or across the lobe's horizon.
+        let l_first = ltc_transform(lobe, p_a);
+        let lobe_size = max(max(max(dot(l_a, l_a), dot(l_b, l_b)), max(dot(l_c, l_c), dot(l_d, l_d))), dot(l_e, l_e));
+        let lowest = l_first.z + min(min(min(l_a.z, l_b.z), min(l_c.z, l_d.z)), l_e.z);
+        if ((lobe_size < 0.0625 * dot(l_first, l_first)) & (lowest > 0.0)) {
+            lobe_sum = ltc_far_pentagon(l_first, l_a, l_b, l_c, l_d, l_e);
+        } else {
+            lobe_sum = ltc_pentagon(l_first + l_a, l_first + l_b, l_first + l_c, l_first + l_d, l_first + l_e);
+        }
+    } else {
+        let a_unit = v_a * inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
+        let b_unit = v_b * inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
+        let c_unit = v_c * inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
+        let d_unit = v_d * inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
+        let e_unit = v_e * inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
+        let edges = ltc_edge(b_unit, a_unit) + ltc_edge(c_unit, b_unit) + ltc_edge(d_unit, c_unit) + ltc_edge(a_unit, e_unit);
+        sum = dot(surface.normal, edges) + ltc_horizon_edge(e_unit, d_unit, surface.normal);
+        lobe_sum = ltc_pentagon(l_a, l_b, l_c, l_d, l_e);
+    }
     return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
 }
 

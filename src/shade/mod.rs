@@ -25,7 +25,7 @@ mod surface;
 
 pub use polygon::{LtcPolygon, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end};
 pub use quad::{
-    ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_far_quad, ltc_horizon_edge, ltc_offset,
+    ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_far_pentagon, ltc_horizon_edge, ltc_offset,
     ltc_pentagon, ltc_quad,
 };
 pub use real::{Real, Vector, angle_excess};

@@ -1,6 +1,5 @@
 //! Edges and convex quads.
 
-use super::polygon::{ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end};
 use super::real::{Real, Vector};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_value, unit,
@@ -121,20 +120,16 @@ pub fn ltc_pentagon<R: Real>(a: R::Vec3, b: R::Vec3, c: R::Vec3, d: R::Vec3, e: 
     sum(starts, ends) + ltc_edge::<R>(y, x)
 }
 
-/// Vector form factor, times 2π and signed, of a quad above the horizon from its first vertex and
-/// the sides from there to the others.
-pub fn ltc_far_quad<R: Real>(a: R::Vec3, side_b: R::Vec3, side_c: R::Vec3, side_d: R::Vec3) -> R::Vec3 {
-    let zero: R = constant(0.0);
-    let reference = unit::<R>(a);
-    let b_offset = ltc_offset::<R>(a, reference, a + side_b, side_b);
-    let c_offset = ltc_offset::<R>(a, reference, a + side_c, side_c);
-    let d_offset = ltc_offset::<R>(a, reference, a + side_d, side_d);
-    let a_offset = R::Vec3::new(zero, zero, zero);
-    let (b, c, d) = (reference + b_offset, reference + c_offset, reference + d_offset);
-    ltc_edge_about::<R>(reference, b, b_offset, reference, a_offset)
-        + ltc_edge_about::<R>(reference, c, c_offset, b, b_offset)
-        + ltc_edge_about::<R>(reference, d, d_offset, c, c_offset)
-        + ltc_edge_about::<R>(reference, reference, a_offset, d, d_offset)
+/// Vector form factor, times 2π and signed, of a pentagon above the horizon from one point `origin` on
+/// or near it and the offsets of its vertices from there.
+pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5]) -> R::Vec3 {
+    let reference = unit::<R>(origin);
+    let offsets = vertices.map(|v| ltc_offset::<R>(origin, reference, origin + v, v));
+    let units = offsets.map(|offset| reference + offset);
+    let edge = |from: usize, to: usize| {
+        ltc_edge_about::<R>(reference, units[from], offsets[from], units[to], offsets[to])
+    };
+    edge(1, 0) + edge(2, 1) + edge(3, 2) + edge(4, 3) + edge(0, 4)
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light; see the include for its domain
@@ -159,36 +154,15 @@ pub fn ltc_quad<R: Real>(
     let p_a = full[0] * scale;
     let front = sides[1].cross(sides[2] - sides[0]).dot(p_a) < zero;
 
-    let a_height = surface.normal.dot(p_a);
     let size_squared = largest(sides.map(|side| side.dot(side)));
-    if size_squared < constant::<R>(0.0625) * p_a.dot(p_a) {
-        let rises = sides.map(|side| surface.normal.dot(side));
-        if a_height + largest(rises).max(zero) <= zero {
-            return nothing;
-        }
-        if a_height + smallest(rises).min(zero) > zero {
-            let sum = surface.normal.dot(ltc_far_quad::<R>(p_a, sides[0], sides[1], sides[2]));
-            let l_a = ltc_transform(lobe, p_a);
-            let l = sides.map(|side| ltc_transform(lobe, side));
-            let lobe_size = largest(l.map(|side| side.dot(side)));
-            let lobe_lowest = l_a.z() + smallest(l.map(R::Vec3::z)).min(zero);
-            let distant = lobe_size < constant::<R>(0.0625) * l_a.dot(l_a);
-            let vector = if distant & (lobe_lowest > zero) {
-                ltc_far_quad::<R>(l_a, l[0], l[1], l[2])
-            } else {
-                ltc_pentagon::<R>(l_a, l_a + l[0], l_a + l[1], l_a + l[2], l_a + l[2])
-            };
-            return ltc_value(surface, lobe, sum * over_two_pi, vector * over_two_pi, front, two_sided);
-        }
-        let mut polygon = ltc_polygon_begin(surface, vertices[0]);
-        for vertex in &vertices[1..] {
-            ltc_polygon_add(&mut polygon, surface, lobe, *vertex);
-        }
-        return ltc_polygon_end(&mut polygon, surface, lobe, two_sided);
-    }
-
-    let p = full.map(|v| v * scale);
-    let heights = p.map(|v| surface.normal.dot(v));
+    let distant = size_squared < constant::<R>(0.0625) * p_a.dot(p_a);
+    let first = if distant { nothing } else { p_a };
+    let others = if distant { sides } else { [full[1], full[2], full[3]].map(|v| v * scale) };
+    let p = [first, others[0], others[1], others[2]];
+    let a_height = surface.normal.dot(p_a);
+    let base_height = if distant { a_height } else { zero };
+    let [b_height, c_height, d_height] = others.map(|v| base_height + surface.normal.dot(v));
+    let heights = [a_height, b_height, c_height, d_height];
     let up = heights.map(|height| height > zero);
     if up == [false; 4] {
         return nothing;
@@ -211,21 +185,33 @@ pub fn ltc_quad<R: Real>(
         let kept = |i: usize| if h[i] > zero { q[i] } else { leave };
         v = [q[0], kept(1), kept(2), leave, cross(0, 3)];
     }
-    let u = v.map(unit::<R>);
-    let edges = ltc_edge::<R>(u[1], u[0])
-        + ltc_edge::<R>(u[2], u[1])
-        + ltc_edge::<R>(u[3], u[2])
-        + ltc_edge::<R>(u[0], u[4]);
-    let sum = surface.normal.dot(edges) + ltc_horizon_edge::<R>(u[4], u[3], surface.normal);
-    let [a, b, c, d, e] = v.map(|v| ltc_transform(lobe, v));
-    let vector = ltc_pentagon::<R>(a, b, c, d, e);
-    ltc_value(surface, lobe, sum * over_two_pi, vector * over_two_pi, front, two_sided)
+    let l = v.map(|v| ltc_transform(lobe, v));
+    let (sum, lobe_sum) = if distant {
+        let sum = surface.normal.dot(ltc_far_pentagon::<R>(p_a, v));
+        let l_first = ltc_transform(lobe, p_a);
+        let lobe_size = l.iter().fold(zero, |size, v| size.max(v.dot(*v)));
+        let lowest = l_first.z() + l.iter().fold(l[0].z(), |low, v| low.min(v.z()));
+        let near = lobe_size < constant::<R>(0.0625) * l_first.dot(l_first);
+        let lobe_sum = if near & (lowest > zero) {
+            ltc_far_pentagon::<R>(l_first, l)
+        } else {
+            let [a, b, c, d, e] = l.map(|v| l_first + v);
+            ltc_pentagon::<R>(a, b, c, d, e)
+        };
+        (sum, lobe_sum)
+    } else {
+        let u = v.map(unit::<R>);
+        let edges = ltc_edge::<R>(u[1], u[0])
+            + ltc_edge::<R>(u[2], u[1])
+            + ltc_edge::<R>(u[3], u[2])
+            + ltc_edge::<R>(u[0], u[4]);
+        let sum = surface.normal.dot(edges) + ltc_horizon_edge::<R>(u[4], u[3], surface.normal);
+        let [a, b, c, d, e] = l;
+        (sum, ltc_pentagon::<R>(a, b, c, d, e))
+    };
+    ltc_value(surface, lobe, sum * over_two_pi, lobe_sum * over_two_pi, front, two_sided)
 }
 
 fn largest<R: Real>(values: [R; 3]) -> R {
     values[0].max(values[1]).max(values[2])
-}
-
-fn smallest<R: Real>(values: [R; 3]) -> R {
-    values[0].min(values[1]).min(values[2])
 }
