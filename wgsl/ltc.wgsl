@@ -69,8 +69,8 @@ struct LtcSurface {
 struct LtcLobe {
     /// Entries (x, y, z, w) of the inverse matrix in the surface's frame:
     /// rows (x, 0, z), (0, 1, 0), (y, 0, w).
-    inverse: vec4<f32>,
-    /// First row of the matrix that leads from the caller's space to the lobe's.
+    entries: vec4<f32>,
+    /// First row of the matrix that leads vectors from the caller's space to the lobe's.
     axis_x: vec3<f32>,
     /// The BRDF's integral of f cos over the hemisphere, for F = 1.
     albedo: f32,
@@ -82,6 +82,12 @@ struct LtcLobe {
     axis_z: vec3<f32>,
     /// Share of the lobe's energy above the surface.
     share: f32,
+    /// First row of the matrix that leads cross products of vectors there.
+    normal_x: vec3<f32>,
+    /// Determinant of the entries.
+    volume: f32,
+    /// Third row of that matrix; the second is `volume` times `axis_y`.
+    normal_z: vec3<f32>,
 }
 
 /// State of a polygon that is given vertex by vertex; read and written by the library alone.
@@ -188,7 +194,7 @@ fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcL
     let a = surface.alpha;
     let m = vec4<f32>(c * c + a * shape.x, a * s * shape.y, s * (c + a * shape.z), a * shape.w);
     var lobe: LtcLobe;
-    lobe.inverse = m;
+    lobe.entries = m;
     lobe.axis_x = surface.tangent * m.x + surface.normal * m.z;
     lobe.albedo = amplitude.x;
     lobe.axis_y = surface.bitangent;
@@ -198,6 +204,9 @@ fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcL
     // that it cuts projects to half a disk and half an ellipse: (1 + cos g) / 2 of the whole for an
     // angle g between the two normals.
     lobe.share = 0.5 + 0.5 * m.x * inverseSqrt(max(m.x * m.x + m.y * m.y, LTC_TINY));
+    lobe.normal_x = surface.tangent * m.w - surface.normal * m.y;
+    lobe.volume = m.x * m.w - m.y * m.z;
+    lobe.normal_z = surface.normal * m.x - surface.tangent * m.z;
     return lobe;
 }
 
@@ -213,6 +222,13 @@ fn ltc_lobe_from_table(surface: LtcSurface, table: texture_2d_array<f32>, table_
 /// `v`, a vector from the surface point, in the lobe's space.
 fn ltc_transform(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(lobe.axis_x, v), dot(lobe.axis_y, v), dot(lobe.axis_z, v));
+}
+
+/// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
+/// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
+/// the surface point closely.
+fn ltc_transform_normal(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(lobe.normal_x, v), lobe.volume * dot(lobe.axis_y, v), dot(lobe.normal_z, v));
 }
 
 /// Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
@@ -231,9 +247,8 @@ fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_refl
 /// leads from one to the other.
 fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<f32>) -> vec2<f32> {
     // The matrix itself, up to the positive factor 1 / determinant.
-    let m = lobe.inverse;
-    let volume = m.x * m.w - m.y * m.z;
-    let direction = vec3<f32>(m.w * toward.x - m.z * toward.z, volume * toward.y, m.x * toward.z - m.y * toward.x);
+    let m = lobe.entries;
+    let direction = vec3<f32>(m.w * toward.x - m.z * toward.z, lobe.volume * toward.y, m.x * toward.z - m.y * toward.x);
     let unit = ltc_direction(direction);
     // cos^2 of half the angle between view and light: the half vector's cosine, squared.
     let half_cosine = clamp(0.5 + 0.5 * (surface.sin_view * unit.x + surface.cos_view * unit.z), 0.0, 1.0);
@@ -271,149 +286,174 @@ fn ltc_angle_excess(k: f32) -> f32 {
     return (low * k + 0.33332586) * k;
 }
 
-/// The edge integral (t / sin t) (a x b) of two unit vectors with the angle t between them, which is
-/// 2 pi times the edge's share of the vector form factor (Lambert; Baum et al. 1989).
+/// The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
+/// two has the fewest digits to lose.
+fn ltc_edge_normal(a: vec3<f32>, b: vec3<f32>, side: vec3<f32>) -> vec3<f32> {
+    return cross(select(a, b, dot(b, b) < dot(a, a)), side);
+}
+
+/// The edge integral of the segment between the directions `a` and `b` (unit vectors): the angle t between
+/// them along the unit normal of their plane, which is 2 pi times the edge's share of the vector form
+/// factor (Lambert; Baum et al. 1989). `normal`, of any length, has the direction of a x b.
 ///
-/// The usual form takes sin t from 1 - (a.b)^2 and a x b from the products; both cancel, the first
-/// for an edge that subtends nearly 180 degrees, which is every edge of a light that touches the
-/// surface, the second for a short one. Here the cross product is that of a and the difference
-/// b - a, and its length is the sine (Lagrange's identity). Bounded by pi for any input.
-fn ltc_edge(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+/// The usual form (t / sin t) (a x b) takes sin t from 1 - (a.b)^2 and a x b from the products. Both cancel,
+/// the first for an edge that subtends nearly 180 degrees, which is every edge of a light that touches
+/// the surface, the second for a short one. Here the difference b - a takes the place of b, the length
+/// of the cross product is the sine (Lagrange's identity), and its direction comes from the vertices
+/// themselves, before they lose the distance at which the edge passes. Bounded by pi for any input.
+fn ltc_edge(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let chord = b - a;
-    let normal = cross(a, chord);
+    let cross_product = cross(a, chord);
+    let squared = dot(cross_product, cross_product);
+    let sine = squared * inverseSqrt(max(squared, 1e-30));
     let k = 0.5 * dot(chord, chord);
-    let excess = ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
-    let obtuse = LTC_PI * inverseSqrt(max(dot(normal, normal), 1e-30)) - (1.0 + excess);
-    return normal * select(1.0 + excess, obtuse, k > 1.0);
+    let acute = sine + sine * ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
+    let angle = select(acute, LTC_PI - acute, k > 1.0);
+    return normal * (angle * inverseSqrt(max(dot(normal, normal), LTC_TINY)));
 }
 
-/// The edge integral's signed length for an edge on the surface's horizon: the angle from `a` to `b`
-/// around `normal`. Its direction is known, and rounding cannot tilt it, however close to the
-/// surface point the edge passes.
-fn ltc_horizon_edge(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>) -> f32 {
-    let integral = ltc_edge(a, b);
-    let squared = dot(integral, integral);
-    let angle = squared * inverseSqrt(max(squared, 1e-30));
-    return select(-angle, angle, dot(integral, normal) > 0.0);
-}
-
-/// The edge integral of unit vectors `a` and `b`, less a part that vanishes over every closed
-/// polygon. The offsets are a - reference and b - reference.
+/// The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
+/// polygon. The offsets are a - reference and b - reference; `normal` is that of ltc_edge.
 ///
 /// Over a closed polygon the cross products of neighbours add up to those of their offsets from any
 /// fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
 /// so its form factor is too, where a sum of ltc_edge has lost its digits: its terms are of the
 /// order of the light's angular size, its sum of that size squared. A unit vector's offset along the
 /// unit reference is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
-/// horizon as well. Exact for polygons of every size; nothing has to take over from anything.
-fn ltc_edge_about(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
+/// horizon as well. Exact for polygons of every size.
+fn ltc_edge_about(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let a_squared = dot(a_offset, a_offset);
     let b_squared = dot(b_offset, b_offset);
-    // Close to the reference the offsets hold the digits of the difference, far from it the vectors.
-    let chord = select(b - a, b_offset - a_offset, max(a_squared, b_squared) < 0.0625);
-    let normal = cross(a, chord);
-    let k = 0.5 * dot(chord, chord);
-    let excess = ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
-    let obtuse = LTC_PI * inverseSqrt(max(dot(normal, normal), 1e-30)) - (2.0 + excess);
     let along = dot(reference, cross(a_offset, b_offset));
     let across = 0.5 * (a_offset * b_squared - b_offset * a_squared);
-    return reference * along + cross(reference, across) + normal * select(excess, obtuse, k > 1.0);
+    let common_part = reference * along + cross(reference, across);
+    // Close to the reference the offsets hold the digits of the difference, far from it the vectors.
+    let near_chord = b_offset - a_offset;
+    let near_part = cross(a, near_chord) * ltc_angle_excess(min(0.5 * dot(near_chord, near_chord), 1.0));
+    let far_part = ltc_edge(a, b, normal) - cross(a, b - a);
+    return common_part + select(far_part, near_part, max(a_squared, b_squared) < 0.0625);
 }
 
-/// Difference of the directions of `point` and `origin`, which differ by `offset`, with the
+/// Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
 /// relative precision of `offset`: the two unit vectors themselves differ by rounding alone when the
 /// points are close. `reference` is the direction of `origin`.
-fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, point: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
-    let inverse_length = inverseSqrt(max(dot(point, point), LTC_TINY));
-    let length_sum = dot(point, point) * inverse_length + dot(origin, reference);
-    let length_difference = dot(offset, origin + point) / max(length_sum, LTC_TINY);
+fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, target_point: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
+    let inverse_length = inverseSqrt(max(dot(target_point, target_point), LTC_TINY));
+    let length_sum = dot(target_point, target_point) * inverse_length + dot(origin, reference);
+    let length_difference = dot(offset, origin + target_point) / max(length_sum, LTC_TINY);
     let near = (offset - reference * length_difference) * inverse_length;
     // With points far apart the subtraction loses nothing, and `offset` may be the less precise.
-    let far = point * inverse_length - reference;
+    let far = target_point * inverse_length - reference;
     return select(far, near, dot(offset, offset) < 0.0625 * dot(origin, origin));
 }
 
-/// Where the segment from `a`, above the plane z = 0, to `b`, not above it, meets that plane.
-fn ltc_crossing(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
-    let t = a.z / max(a.z - b.z, LTC_TINY);
-    return vec3<f32>(a.xy + (b.xy - a.xy) * t, 0.0);
+/// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
+/// it passes the surface point closely. `normal` has the direction of above x below.
+fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    let t = above.z / max(above.z - below.z, LTC_TINY);
+    let between = vec3<f32>(above.xy + (below.xy - above.xy) * t, 0.0);
+    // Where the segment passes the surface point closely the ends cancel; the plane of the segment still
+    // has its digits, unless it is that of the horizon.
+    let turned = vec3<f32>(normal.y, -normal.x, 0.0);
+    let cancels = dot(between, between) < 1e-6 * max(dot(above, above), dot(below, below));
+    let tilted = dot(turned, turned) > 1e-3 * dot(normal, normal);
+    return select(between, turned, cancels & tilted);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Quads
 // ---------------------------------------------------------------------------------------------
 
-/// Vector form factor, times 2 pi and signed, of a convex pentagon cut at z = 0, in any linear
-/// space; x and y are meaningful only as a direction. Repeated vertices make it any smaller polygon.
-fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>) -> vec3<f32> {
-    let lowest = min(min(min(a.z, b.z), min(c.z, d.z)), e.z);
-    let highest = max(max(max(a.z, b.z), max(c.z, d.z)), e.z);
-    let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
-    let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
-    let c_unit = c * inverseSqrt(max(dot(c, c), LTC_TINY));
-    let d_unit = d * inverseSqrt(max(dot(d, d), LTC_TINY));
-    let e_unit = e * inverseSqrt(max(dot(e, e), LTC_TINY));
-    if (lowest > 0.0) {
-        return ltc_edge(b_unit, a_unit) + ltc_edge(c_unit, b_unit) + ltc_edge(d_unit, c_unit)
-            + ltc_edge(e_unit, d_unit) + ltc_edge(a_unit, e_unit);
-    }
-    if (highest <= 0.0) {
-        return vec3<f32>(0.0);
-    }
+/// Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
+/// horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
+/// next one. Repeated vertices make it any smaller polygon.
+fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>) -> vec3<f32> {
     let a_up = a.z > 0.0;
     let b_up = b.z > 0.0;
     let c_up = c.z > 0.0;
     let d_up = d.z > 0.0;
     let e_up = e.z > 0.0;
-    // A convex polygon leaves the upper side once and comes back once.
-    let leave_b = b_up & !c_up;
-    let leave_c = c_up & !d_up;
-    let leave_d = d_up & !e_up;
-    let leave_e = e_up & !a_up;
-    let leave_from = select(select(select(select(a, b, leave_b), c, leave_c), d, leave_d), e, leave_e);
-    let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
-    let enter_b = b_up & !a_up;
-    let enter_c = c_up & !b_up;
-    let enter_d = d_up & !c_up;
-    let enter_e = e_up & !d_up;
-    let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
-    let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
-    let leave = ltc_crossing(leave_from, leave_to);
-    let enter = ltc_crossing(enter_to, enter_from);
-    let x = leave * inverseSqrt(max(dot(leave, leave), LTC_TINY));
-    let y = enter * inverseSqrt(max(dot(enter, enter), LTC_TINY));
-    // Each edge runs between what is left of its ends; an edge below is left with one point.
-    let a_end = select(select(y, x, e_up), a_unit, a_up);
-    let b_end = select(select(y, x, a_up), b_unit, b_up);
-    let c_end = select(select(y, x, b_up), c_unit, c_up);
-    let d_end = select(select(y, x, c_up), d_unit, d_up);
-    let e_end = select(select(y, x, d_up), e_unit, e_up);
-    let a_start = select(y, a_unit, a_up);
-    let b_start = select(y, b_unit, b_up);
-    let c_start = select(y, c_unit, c_up);
-    let d_start = select(y, d_unit, d_up);
-    let e_start = select(y, e_unit, e_up);
-    return ltc_edge(b_end, a_start) + ltc_edge(c_end, b_start) + ltc_edge(d_end, c_start)
-        + ltc_edge(e_end, d_start) + ltc_edge(a_end, e_start) + ltc_edge(y, x);
+    if (!(a_up | b_up | c_up | d_up | e_up)) {
+        return vec3<f32>(0.0);
+    }
+    let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
+    let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
+    let c_unit = c * inverseSqrt(max(dot(c, c), LTC_TINY));
+    let d_unit = d * inverseSqrt(max(dot(d, d), LTC_TINY));
+    let e_unit = e * inverseSqrt(max(dot(e, e), LTC_TINY));
+    var a_start = a_unit;
+    var b_start = b_unit;
+    var c_start = c_unit;
+    var d_start = d_unit;
+    var e_start = e_unit;
+    var a_end = a_unit;
+    var b_end = b_unit;
+    var c_end = c_unit;
+    var d_end = d_unit;
+    var e_end = e_unit;
+    var horizon = vec3<f32>(0.0);
+    if (!(a_up & b_up & c_up & d_up & e_up)) {
+        // A convex polygon leaves the upper side once and comes back once.
+        let leave_b = b_up & !c_up;
+        let leave_c = c_up & !d_up;
+        let leave_d = d_up & !e_up;
+        let leave_e = e_up & !a_up;
+        let leave_from = select(select(select(select(a, b, leave_b), c, leave_c), d, leave_d), e, leave_e);
+        let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
+        let leave_normal = select(select(select(select(a_normal, b_normal, leave_b), c_normal, leave_c), d_normal, leave_d), e_normal, leave_e);
+        let enter_b = b_up & !a_up;
+        let enter_c = c_up & !b_up;
+        let enter_d = d_up & !c_up;
+        let enter_e = e_up & !d_up;
+        let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
+        let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
+        let enter_normal = select(select(select(select(e_normal, a_normal, enter_b), b_normal, enter_c), c_normal, enter_d), d_normal, enter_e);
+        let leave_point = ltc_crossing(leave_from, leave_to, leave_normal);
+        let enter_point = ltc_crossing(enter_to, enter_from, -enter_normal);
+        let leave = leave_point * inverseSqrt(max(dot(leave_point, leave_point), LTC_TINY));
+        let enter = enter_point * inverseSqrt(max(dot(enter_point, enter_point), LTC_TINY));
+        // Each edge runs between what is left of its ends; an edge below is left with one point.
+        a_end = select(select(enter, leave, e_up), a_unit, a_up);
+        b_end = select(select(enter, leave, a_up), b_unit, b_up);
+        c_end = select(select(enter, leave, b_up), c_unit, c_up);
+        d_end = select(select(enter, leave, c_up), d_unit, d_up);
+        e_end = select(select(enter, leave, d_up), e_unit, e_up);
+        a_start = select(enter, a_unit, a_up);
+        b_start = select(enter, b_unit, b_up);
+        c_start = select(enter, c_unit, c_up);
+        d_start = select(enter, d_unit, d_up);
+        e_start = select(enter, e_unit, e_up);
+        horizon = ltc_edge(leave, enter, cross(leave, enter - leave));
+    }
+    return -(ltc_edge(a_start, b_end, a_normal) + ltc_edge(b_start, c_end, b_normal) + ltc_edge(c_start, d_end, c_normal)
+        + ltc_edge(d_start, e_end, d_normal) + ltc_edge(e_start, a_end, e_normal) + horizon);
 }
 
 /// Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-/// on or near it and the offsets of its vertices from there, all much shorter than the distance.
-fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>) -> vec3<f32> {
+/// on or near it and the offsets of its vertices from there, with the normals of ltc_pentagon. Precise
+/// however small the pentagon is.
+fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>) -> vec3<f32> {
     let reference = origin * inverseSqrt(max(dot(origin, origin), LTC_TINY));
-    let a_offset = ltc_offset(origin, reference, origin + a, a);
-    let b_offset = ltc_offset(origin, reference, origin + b, b);
-    let c_offset = ltc_offset(origin, reference, origin + c, c);
-    let d_offset = ltc_offset(origin, reference, origin + d, d);
-    let e_offset = ltc_offset(origin, reference, origin + e, e);
-    let a_unit = reference + a_offset;
-    let b_unit = reference + b_offset;
-    let c_unit = reference + c_offset;
-    let d_unit = reference + d_offset;
-    let e_unit = reference + e_offset;
-    return ltc_edge_about(reference, b_unit, b_offset, a_unit, a_offset) + ltc_edge_about(reference, c_unit, c_offset, b_unit, b_offset)
-        + ltc_edge_about(reference, d_unit, d_offset, c_unit, c_offset) + ltc_edge_about(reference, e_unit, e_offset, d_unit, d_offset)
-        + ltc_edge_about(reference, a_unit, a_offset, e_unit, e_offset);
+    let a_point = origin + a;
+    let b_point = origin + b;
+    let c_point = origin + c;
+    let d_point = origin + d;
+    let e_point = origin + e;
+    let a_offset = ltc_offset(origin, reference, a_point, a);
+    let b_offset = ltc_offset(origin, reference, b_point, b);
+    let c_offset = ltc_offset(origin, reference, c_point, c);
+    let d_offset = ltc_offset(origin, reference, d_point, d);
+    let e_offset = ltc_offset(origin, reference, e_point, e);
+    let a_unit = a_point * inverseSqrt(max(dot(a_point, a_point), LTC_TINY));
+    let b_unit = b_point * inverseSqrt(max(dot(b_point, b_point), LTC_TINY));
+    let c_unit = c_point * inverseSqrt(max(dot(c_point, c_point), LTC_TINY));
+    let d_unit = d_point * inverseSqrt(max(dot(d_point, d_point), LTC_TINY));
+    let e_unit = e_point * inverseSqrt(max(dot(e_point, e_point), LTC_TINY));
+    return -(ltc_edge_about(reference, a_unit, a_offset, b_unit, b_offset, a_normal)
+        + ltc_edge_about(reference, b_unit, b_offset, c_unit, c_offset, b_normal)
+        + ltc_edge_about(reference, c_unit, c_offset, d_unit, d_offset, c_normal)
+        + ltc_edge_about(reference, d_unit, d_offset, e_unit, e_offset, d_normal)
+        + ltc_edge_about(reference, e_unit, e_offset, a_unit, a_offset, e_normal));
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
@@ -497,33 +537,44 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
         v_e = q_a + (q_d - q_a) * (h.x / max(h.x - h.w, LTC_TINY));
     }
 
+    // Cross products of neighbouring vertices, from the edges' own vectors.
+    let base = select(vec3<f32>(0.0), p_a, distant);
+    let a_normal = ltc_edge_normal(base + v_a, base + v_b, v_b - v_a);
+    let b_normal = ltc_edge_normal(base + v_b, base + v_c, v_c - v_b);
+    let c_normal = ltc_edge_normal(base + v_c, base + v_d, v_d - v_c);
+    // The edge from exit to entry lies on the horizon, whatever rounding says of its normal.
+    let d_normal = surface.normal * dot(surface.normal, ltc_edge_normal(base + v_d, base + v_e, v_e - v_d));
+    let e_normal = ltc_edge_normal(base + v_e, base + v_a, v_a - v_e);
     let l_a = ltc_transform(lobe, v_a);
     let l_b = ltc_transform(lobe, v_b);
     let l_c = ltc_transform(lobe, v_c);
     let l_d = ltc_transform(lobe, v_d);
     let l_e = ltc_transform(lobe, v_e);
+    let l_base = ltc_transform(lobe, base);
+    let m_a = ltc_transform_normal(lobe, a_normal);
+    let m_b = ltc_transform_normal(lobe, b_normal);
+    let m_c = ltc_transform_normal(lobe, c_normal);
+    let m_d = ltc_transform_normal(lobe, d_normal);
+    let m_e = ltc_transform_normal(lobe, e_normal);
+    let lowest = l_base.z + min(min(min(l_a.z, l_b.z), min(l_c.z, l_d.z)), l_e.z);
     var sum: f32;
-    var lobe_sum: vec3<f32>;
     if (distant) {
-        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e));
-        // The lobe's space stretches: there the light may be near, or across the lobe's horizon.
-        let l_first = ltc_transform(lobe, p_a);
-        let lobe_size = max(max(max(dot(l_a, l_a), dot(l_b, l_b)), max(dot(l_c, l_c), dot(l_d, l_d))), dot(l_e, l_e));
-        let lowest = l_first.z + min(min(min(l_a.z, l_b.z), min(l_c.z, l_d.z)), l_e.z);
-        if ((lobe_size < 0.0625 * dot(l_first, l_first)) & (lowest > 0.0)) {
-            lobe_sum = ltc_far_pentagon(l_first, l_a, l_b, l_c, l_d, l_e);
-        } else {
-            lobe_sum = ltc_pentagon(l_first + l_a, l_first + l_b, l_first + l_c, l_first + l_d, l_first + l_e);
-        }
+        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e, a_normal, b_normal, c_normal, d_normal, e_normal));
     } else {
         let a_unit = v_a * inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
         let b_unit = v_b * inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
         let c_unit = v_c * inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
         let d_unit = v_d * inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
         let e_unit = v_e * inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
-        let edges = ltc_edge(b_unit, a_unit) + ltc_edge(c_unit, b_unit) + ltc_edge(d_unit, c_unit) + ltc_edge(a_unit, e_unit);
-        sum = dot(surface.normal, edges) + ltc_horizon_edge(e_unit, d_unit, surface.normal);
-        lobe_sum = ltc_pentagon(l_a, l_b, l_c, l_d, l_e);
+        let edges = ltc_edge(a_unit, b_unit, a_normal) + ltc_edge(b_unit, c_unit, b_normal) + ltc_edge(c_unit, d_unit, c_normal)
+            + ltc_edge(d_unit, e_unit, d_normal) + ltc_edge(e_unit, a_unit, e_normal);
+        sum = -dot(surface.normal, edges);
+    }
+    var lobe_sum: vec3<f32>;
+    if (distant & (lowest > 0.0)) {
+        lobe_sum = ltc_far_pentagon(l_base, l_a, l_b, l_c, l_d, l_e, m_a, m_b, m_c, m_d, m_e);
+    } else {
+        lobe_sum = ltc_pentagon(l_base + l_a, l_base + l_b, l_base + l_c, l_base + l_d, l_base + l_e, m_a, m_b, m_c, m_d, m_e);
     }
     return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
 }
@@ -542,12 +593,12 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
 // ---------------------------------------------------------------------------------------------
 
 /// Starts a polygon at its first vertex.
-fn ltc_polygon_begin(surface: LtcSurface, vertex: vec3<f32>) -> LtcPolygon {
-    let to_first = (vertex * LTC_HEADROOM) - (surface.position * LTC_HEADROOM);
+fn ltc_polygon_begin(surface: LtcSurface, corner: vec3<f32>) -> LtcPolygon {
+    let to_first = (corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM);
     var polygon: LtcPolygon;
-    polygon.first = vertex;
+    polygon.first = corner;
     polygon.scale = 1.0 / max(ltc_extent(to_first), LTC_TINY);
-    polygon.previous = vertex;
+    polygon.previous = corner;
     polygon.facing = 0.0;
     polygon.surface_crossing = vec3<f32>(0.0);
     polygon.surface_crossed = 0.0;
@@ -561,11 +612,11 @@ fn ltc_polygon_begin(surface: LtcSurface, vertex: vec3<f32>) -> LtcPolygon {
 }
 
 /// Adds the next vertex.
-fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, vertex: vec3<f32>) {
+fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, corner: vec3<f32>) {
     let origin = surface.position * LTC_HEADROOM;
     let first_far = (*polygon).first * LTC_HEADROOM;
     let a_far = (*polygon).previous * LTC_HEADROOM;
-    let b_far = vertex * LTC_HEADROOM;
+    let b_far = corner * LTC_HEADROOM;
     // Lengths in units of the distance to the first vertex, but below 1e12 of anything.
     let extent = max(ltc_extent(a_far - origin), ltc_extent(b_far - origin));
     let scale = min((*polygon).scale, 1e12 / max(extent, 1e-25));
@@ -575,7 +626,7 @@ fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
     let a_offset = (a_far - first_far) * scale;
     let b_offset = (b_far - first_far) * scale;
     (*polygon).facing += dot(cross(a_offset, b_offset), reference);
-    (*polygon).previous = vertex;
+    (*polygon).previous = corner;
 
     // Heights of a distant light from that of the first vertex and the rise from there.
     let height = dot(surface.normal, reference);
@@ -621,57 +672,53 @@ fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
 
 /// Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
 fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, closing: bool) {
-    let integral = ltc_edge_from(reference, a, a_offset, b, b_offset);
-    let along = dot(surface.normal, integral);
-    (*polygon).diffuse += along;
-    let reach = max(dot(a_offset, a_offset), dot(b_offset, b_offset));
-    if (closing & (reach >= 0.0625 * dot(reference, reference))) {
-        // What rounding tilts away from the normal of an edge on the horizon, see ltc_horizon_edge.
-        let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
-        let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
-        let upright = ltc_edge(b_unit, a_unit);
-        (*polygon).diffuse += ltc_horizon_edge(b_unit, a_unit, surface.normal) - dot(surface.normal, upright);
-    }
+    let product = ltc_edge_normal(a, b, b_offset - a_offset);
+    // An edge on the horizon has the surface's normal, whatever rounding says of its own.
+    let normal = select(product, surface.normal * dot(surface.normal, product), closing);
+    (*polygon).diffuse -= dot(surface.normal, ltc_edge_from(reference, a, a_offset, b, b_offset, normal));
 
     let m = ltc_transform(lobe, reference);
     let m_a = ltc_transform(lobe, a);
     let m_b = ltc_transform(lobe, b);
     let m_a_offset = ltc_transform(lobe, a_offset);
     let m_b_offset = ltc_transform(lobe, b_offset);
+    let m_normal = ltc_transform_normal(lobe, normal);
     let a_up = m_a.z > 0.0;
     let b_up = m_b.z > 0.0;
     if (a_up & b_up) {
-        (*polygon).lobe_sum += ltc_edge_from(m, m_a, m_a_offset, m_b, m_b_offset);
+        (*polygon).lobe_sum -= ltc_edge_from(m, m_a, m_a_offset, m_b, m_b_offset, m_normal);
     } else if (a_up | b_up) {
         let above = select(m_b, m_a, a_up);
         let below = select(m_a, m_b, a_up);
         let above_offset = select(m_b_offset, m_a_offset, a_up);
         let below_offset = select(m_a_offset, m_b_offset, a_up);
         let t = above.z / max(above.z - below.z, LTC_TINY);
-        let crossing = ltc_crossing(above, below);
+        let crossing = ltc_crossing(above, below, select(-m_normal, m_normal, a_up));
         let crossing_offset = above_offset + (below_offset - above_offset) * t;
         if ((*polygon).lobe_crossed > 0.0) {
             let base = (*polygon).lobe_crossing;
             let base_offset = (*polygon).lobe_crossing_offset;
-            (*polygon).lobe_sum += ltc_edge_from(m, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
-                select(crossing, base, a_up), select(crossing_offset, base_offset, a_up));
+            let start = select(base, crossing, a_up);
+            let end = select(crossing, base, a_up);
+            (*polygon).lobe_sum -= ltc_edge_from(m, start, select(base_offset, crossing_offset, a_up), end,
+                select(crossing_offset, base_offset, a_up), cross(start, end - start));
         } else {
             (*polygon).lobe_crossed = 1.0;
             (*polygon).lobe_crossing = crossing;
             (*polygon).lobe_crossing_offset = crossing_offset;
         }
-        (*polygon).lobe_sum += ltc_edge_from(m, select(crossing, m_a, a_up), select(crossing_offset, m_a_offset, a_up),
-            select(m_b, crossing, a_up), select(m_b_offset, crossing_offset, a_up));
+        (*polygon).lobe_sum -= ltc_edge_from(m, select(crossing, m_a, a_up), select(crossing_offset, m_a_offset, a_up),
+            select(m_b, crossing, a_up), select(m_b_offset, crossing_offset, a_up), m_normal);
     }
 }
 
-/// ltc_edge_about for points and their offsets from `origin`, walked from `b` to `a` so that light
-/// counts positive.
-fn ltc_edge_from(origin: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
+/// ltc_edge_about for points and their offsets from `origin`. A point far from `origin` may as well be
+/// given by its direction.
+fn ltc_edge_from(origin: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let reference = origin * inverseSqrt(max(dot(origin, origin), LTC_TINY));
     let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
     let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
     let a_away = ltc_offset(origin, reference, a, a_offset);
     let b_away = ltc_offset(origin, reference, b, b_offset);
-    return ltc_edge_about(reference, b_unit, b_away, a_unit, a_away);
+    return ltc_edge_about(reference, a_unit, a_away, b_unit, b_away, normal);
 }

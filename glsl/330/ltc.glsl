@@ -62,8 +62,10 @@ struct LtcSurface {
 
 // One lobe: a linearly transformed cosine and the weights of the BRDF's two parts.
 struct LtcLobe {
-    vec4 inverse_;
-    // First row of the matrix that leads from the caller's space to the lobe's.
+    // Entries (x, y, z, w) of the inverse matrix in the surface's frame:
+    // rows (x, 0, z), (0, 1, 0), (y, 0, w).
+    vec4 entries;
+    // First row of the matrix that leads vectors from the caller's space to the lobe's.
     vec3 axis_x;
     // The BRDF's integral of f cos over the hemisphere, for F = 1.
     float albedo;
@@ -75,6 +77,12 @@ struct LtcLobe {
     vec3 axis_z;
     // Share of the lobe's energy above the surface.
     float share;
+    // First row of the matrix that leads cross products of vectors there.
+    vec3 normal_x;
+    // Determinant of the entries.
+    float volume;
+    // Third row of that matrix; the second is `volume` times `axis_y`.
+    vec3 normal_z;
 };
 
 // State of a polygon that is given vertex by vertex; read and written by the library alone.
@@ -187,20 +195,23 @@ vec2 ltc_table_coordinates(LtcSurface surface, float table_size) {
 // alpha -> 0, X and Z vanish, and the rest tends to Y = -2 cos t, W = 2 cos^2 t.
 // `amplitude` (layer 1) holds the albedo and its Schlick part in x and y.
 LtcLobe ltc_lobe(LtcSurface surface, vec4 shape, vec4 amplitude) {
-    LtcLobe lobe = LtcLobe(vec4(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0);
+    LtcLobe lobe = LtcLobe(vec4(0.0), vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0));
     float c = surface.cos_view;
     float s = surface.sin_view;
     float a = surface.alpha;
     vec4 m = vec4(((c * c) + (a * shape.x)), ((a * s) * shape.y), (s * (c + (a * shape.z))), (a * shape.w));
-    lobe.inverse_ = m;
+    lobe.entries = m;
     lobe.axis_x = ((surface.tangent * m.x) + (surface.normal * m.z));
     lobe.albedo = amplitude.x;
     lobe.axis_y = surface.bitangent;
     lobe.fresnel = amplitude.y;
     lobe.axis_z = ((surface.tangent * m.y) + (surface.normal * m.w));
     lobe.share = (0.5 + ((0.5 * m.x) * inversesqrt(max(((m.x * m.x) + (m.y * m.y)), LTC_TINY))));
-    LtcLobe _e61 = lobe;
-    return _e61;
+    lobe.normal_x = ((surface.tangent * m.w) - (surface.normal * m.y));
+    lobe.volume = ((m.x * m.w) - (m.y * m.z));
+    lobe.normal_z = ((surface.normal * m.x) - (surface.tangent * m.z));
+    LtcLobe _e85 = lobe;
+    return _e85;
 }
 
 // The lobe of a surface from the table's texture array (layers 0 and 1, `table_size` texels along
@@ -218,6 +229,13 @@ vec3 ltc_transform(LtcLobe lobe, vec3 v) {
     return vec3(dot(lobe.axis_x, v), dot(lobe.axis_y, v), dot(lobe.axis_z, v));
 }
 
+// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
+// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
+// the surface point closely.
+vec3 ltc_transform_normal(LtcLobe lobe, vec3 v) {
+    return vec3(dot(lobe.normal_x, v), (lobe.volume * dot(lobe.axis_y, v)), dot(lobe.normal_z, v));
+}
+
 // Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
 // `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
 // light of unit radiance (Schlick 1994).
@@ -233,11 +251,10 @@ vec3 ltc_reflectance(vec3 value, vec3 normal_reflectance, vec3 grazing_reflectan
 // for a light that covers the whole lobe it is the table's average. The square of the coverage
 // leads from one to the other.
 vec2 ltc_specular(LtcSurface surface, LtcLobe lobe, float coverage, vec3 toward) {
-    vec4 m = lobe.inverse_;
-    float volume = ((m.x * m.w) - (m.y * m.z));
-    vec3 direction = vec3(((m.w * toward.x) - (m.z * toward.z)), (volume * toward.y), ((m.x * toward.z) - (m.y * toward.x)));
-    vec3 _e29 = ltc_direction(direction);
-    float half_cosine = clamp((0.5 + (0.5 * ((surface.sin_view * _e29.x) + (surface.cos_view * _e29.z)))), 0.0, 1.0);
+    vec4 m = lobe.entries;
+    vec3 direction = vec3(((m.w * toward.x) - (m.z * toward.z)), (lobe.volume * toward.y), ((m.x * toward.z) - (m.y * toward.x)));
+    vec3 _e23 = ltc_direction(direction);
+    float half_cosine = clamp((0.5 + (0.5 * ((surface.sin_view * _e23.x) + (surface.cos_view * _e23.z)))), 0.0, 1.0);
     float f = (1.0 - (half_cosine * inversesqrt(max(half_cosine, 1e-20))));
     float schlick = ((((f * f) * f) * f) * f);
     float whole = (coverage * coverage);
@@ -266,153 +283,194 @@ float ltc_angle_excess(float k) {
     return (((low * k) + 0.33332586) * k);
 }
 
-// The edge integral (t / sin t) (a x b) of two unit vectors with the angle t between them, which is
-// 2 pi times the edge's share of the vector form factor (Lambert; Baum et al. 1989).
+// The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
+// two has the fewest digits to lose.
+vec3 ltc_edge_normal(vec3 a, vec3 b, vec3 side) {
+    return cross(((dot(b, b) < dot(a, a)) ? b : a), side);
+}
+
+// The edge integral of the segment between the directions `a` and `b` (unit vectors): the angle t between
+// them along the unit normal of their plane, which is 2 pi times the edge's share of the vector form
+// factor (Lambert; Baum et al. 1989). `normal`, of any length, has the direction of a x b.
 //
-// The usual form takes sin t from 1 - (a.b)^2 and a x b from the products; both cancel, the first
-// for an edge that subtends nearly 180 degrees, which is every edge of a light that touches the
-// surface, the second for a short one. Here the cross product is that of a and the difference
-// b - a, and its length is the sine (Lagrange's identity). Bounded by pi for any input.
-vec3 ltc_edge(vec3 a, vec3 b) {
+// The usual form (t / sin t) (a x b) takes sin t from 1 - (a.b)^2 and a x b from the products. Both cancel,
+// the first for an edge that subtends nearly 180 degrees, which is every edge of a light that touches
+// the surface, the second for a short one. Here the difference b - a takes the place of b, the length
+// of the cross product is the sine (Lagrange's identity), and its direction comes from the vertices
+// themselves, before they lose the distance at which the edge passes. Bounded by pi for any input.
+vec3 ltc_edge(vec3 a, vec3 b, vec3 normal) {
     vec3 chord = (b - a);
-    vec3 normal = cross(a, chord);
+    vec3 cross_product = cross(a, chord);
+    float squared = dot(cross_product, cross_product);
+    float sine = (squared * inversesqrt(max(squared, 1e-30)));
     float k = (0.5 * dot(chord, chord));
-    float _e12 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
-    float obtuse = ((LTC_PI * inversesqrt(max(dot(normal, normal), 1e-30))) - (1.0 + _e12));
-    return (normal * ((k > 1.0) ? obtuse : (1.0 + _e12)));
+    float _e18 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
+    float acute = (sine + (sine * _e18));
+    float angle = ((k > 1.0) ? (LTC_PI - acute) : acute);
+    return (normal * (angle * inversesqrt(max(dot(normal, normal), LTC_TINY))));
 }
 
-// The edge integral's signed length for an edge on the surface's horizon: the angle from `a` to `b`
-// around `normal`. Its direction is known, and rounding cannot tilt it, however close to the
-// surface point the edge passes.
-float ltc_horizon_edge(vec3 a, vec3 b, vec3 normal) {
-    vec3 _e3 = ltc_edge(a, b);
-    float squared = dot(_e3, _e3);
-    float angle = (squared * inversesqrt(max(squared, 1e-30)));
-    return ((dot(_e3, normal) > 0.0) ? angle : -(angle));
-}
-
-// The edge integral of unit vectors `a` and `b`, less a part that vanishes over every closed
-// polygon. The offsets are a - reference and b - reference.
+// The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
+// polygon. The offsets are a - reference and b - reference; `normal` is that of ltc_edge.
 //
 // Over a closed polygon the cross products of neighbours add up to those of their offsets from any
 // fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
 // so its form factor is too, where a sum of ltc_edge has lost its digits: its terms are of the
 // order of the light's angular size, its sum of that size squared. A unit vector's offset along the
 // unit reference is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
-// horizon as well. Exact for polygons of every size; nothing has to take over from anything.
-vec3 ltc_edge_about(vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset) {
+// horizon as well. Exact for polygons of every size.
+vec3 ltc_edge_about(vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal) {
     float a_squared = dot(a_offset, a_offset);
     float b_squared = dot(b_offset, b_offset);
-    vec3 chord = ((max(a_squared, b_squared) < 0.0625) ? (b_offset - a_offset) : (b - a));
-    vec3 normal = cross(a, chord);
-    float k = (0.5 * dot(chord, chord));
-    float _e22 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
-    float obtuse = ((LTC_PI * inversesqrt(max(dot(normal, normal), 1e-30))) - (2.0 + _e22));
     float along = dot(reference, cross(a_offset, b_offset));
     vec3 across = (0.5 * ((a_offset * b_squared) - (b_offset * a_squared)));
-    return (((reference * along) + cross(reference, across)) + (normal * ((k > 1.0) ? obtuse : _e22)));
+    vec3 common_part = ((reference * along) + cross(reference, across));
+    vec3 near_chord = (b_offset - a_offset);
+    float _e25 = ltc_angle_excess(min((0.5 * dot(near_chord, near_chord)), 1.0));
+    vec3 near_part = (cross(a, near_chord) * _e25);
+    vec3 _e27 = ltc_edge(a, b, normal);
+    vec3 far_part = (_e27 - cross(a, (b - a)));
+    return (common_part + ((max(a_squared, b_squared) < 0.0625) ? near_part : far_part));
 }
 
-// Difference of the directions of `point` and `origin`, which differ by `offset`, with the
+// Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
 // relative precision of `offset`: the two unit vectors themselves differ by rounding alone when the
 // points are close. `reference` is the direction of `origin`.
-vec3 ltc_offset(vec3 origin, vec3 reference, vec3 point, vec3 offset) {
-    float inverse_length = inversesqrt(max(dot(point, point), LTC_TINY));
-    float length_sum = ((dot(point, point) * inverse_length) + dot(origin, reference));
-    float length_difference = (dot(offset, (origin + point)) / max(length_sum, LTC_TINY));
+vec3 ltc_offset(vec3 origin, vec3 reference, vec3 target_point, vec3 offset) {
+    float inverse_length = inversesqrt(max(dot(target_point, target_point), LTC_TINY));
+    float length_sum = ((dot(target_point, target_point) * inverse_length) + dot(origin, reference));
+    float length_difference = (dot(offset, (origin + target_point)) / max(length_sum, LTC_TINY));
     vec3 near = ((offset - (reference * length_difference)) * inverse_length);
-    vec3 far = ((point * inverse_length) - reference);
+    vec3 far = ((target_point * inverse_length) - reference);
     return ((dot(offset, offset) < (0.0625 * dot(origin, origin))) ? near : far);
 }
 
-// Where the segment from `a`, above the plane z = 0, to `b`, not above it, meets that plane.
-vec3 ltc_crossing(vec3 a, vec3 b) {
-    float t = (a.z / max((a.z - b.z), LTC_TINY));
-    return vec3((a.xy + ((b.xy - a.xy) * t)), 0.0);
+// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
+// it passes the surface point closely. `normal` has the direction of above x below.
+vec3 ltc_crossing(vec3 above, vec3 below, vec3 normal) {
+    float t = (above.z / max((above.z - below.z), LTC_TINY));
+    vec3 between = vec3((above.xy + ((below.xy - above.xy) * t)), 0.0);
+    vec3 turned = vec3(normal.y, -(normal.x), 0.0);
+    bool cancels = (dot(between, between) < (1e-6 * max(dot(above, above), dot(below, below))));
+    bool tilted = (dot(turned, turned) > (0.001 * dot(normal, normal)));
+    return ((cancels && tilted) ? turned : between);
 }
 
-// Vector form factor, times 2 pi and signed, of a convex pentagon cut at z = 0, in any linear
-// space; x and y are meaningful only as a direction. Repeated vertices make it any smaller polygon.
-vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
-    float lowest = min(min(min(a.z, b.z), min(c.z, d.z)), e.z);
-    float highest = max(max(max(a.z, b.z), max(c.z, d.z)), e.z);
-    vec3 a_unit = (a * inversesqrt(max(dot(a, a), LTC_TINY)));
-    vec3 b_unit = (b * inversesqrt(max(dot(b, b), LTC_TINY)));
-    vec3 c_unit = (c * inversesqrt(max(dot(c, c), LTC_TINY)));
-    vec3 d_unit = (d * inversesqrt(max(dot(d, d), LTC_TINY)));
-    vec3 e_unit = (e * inversesqrt(max(dot(e, e), LTC_TINY)));
-    if ((lowest > 0.0)) {
-        vec3 _e50 = ltc_edge(b_unit, a_unit);
-        vec3 _e51 = ltc_edge(c_unit, b_unit);
-        vec3 _e53 = ltc_edge(d_unit, c_unit);
-        vec3 _e55 = ltc_edge(e_unit, d_unit);
-        vec3 _e57 = ltc_edge(a_unit, e_unit);
-        return ((((_e50 + _e51) + _e53) + _e55) + _e57);
-    }
-    if ((highest <= 0.0)) {
-        return vec3(0.0);
-    }
+// Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
+// horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
+// next one. Repeated vertices make it any smaller polygon.
+vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_normal, vec3 c_normal, vec3 d_normal, vec3 e_normal) {
+    vec3 a_start = vec3(0.0);
+    vec3 b_start = vec3(0.0);
+    vec3 c_start = vec3(0.0);
+    vec3 d_start = vec3(0.0);
+    vec3 e_start = vec3(0.0);
+    vec3 a_end = vec3(0.0);
+    vec3 b_end = vec3(0.0);
+    vec3 c_end = vec3(0.0);
+    vec3 d_end = vec3(0.0);
+    vec3 e_end = vec3(0.0);
+    vec3 horizon = vec3(0.0);
     bool a_up = (a.z > 0.0);
     bool b_up = (b.z > 0.0);
     bool c_up = (c.z > 0.0);
     bool d_up = (d.z > 0.0);
     bool e_up = (e.z > 0.0);
-    bool leave_b = (b_up && !(c_up));
-    bool leave_c = (c_up && !(d_up));
-    bool leave_d = (d_up && !(e_up));
-    bool leave_e = (e_up && !(a_up));
-    vec3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
-    vec3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
-    bool enter_b = (b_up && !(a_up));
-    bool enter_c = (c_up && !(b_up));
-    bool enter_d = (d_up && !(c_up));
-    bool enter_e = (e_up && !(d_up));
-    vec3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
-    vec3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
-    vec3 _e110 = ltc_crossing(leave_from, leave_to);
-    vec3 _e111 = ltc_crossing(enter_to, enter_from);
-    vec3 x = (_e110 * inversesqrt(max(dot(_e110, _e110), LTC_TINY)));
-    vec3 y = (_e111 * inversesqrt(max(dot(_e111, _e111), LTC_TINY)));
-    vec3 a_end = (a_up ? a_unit : (e_up ? x : y));
-    vec3 b_end = (b_up ? b_unit : (a_up ? x : y));
-    vec3 c_end = (c_up ? c_unit : (b_up ? x : y));
-    vec3 d_end = (d_up ? d_unit : (c_up ? x : y));
-    vec3 e_end = (e_up ? e_unit : (d_up ? x : y));
-    vec3 a_start = (a_up ? a_unit : y);
-    vec3 b_start = (b_up ? b_unit : y);
-    vec3 c_start = (c_up ? c_unit : y);
-    vec3 d_start = (d_up ? d_unit : y);
-    vec3 e_start = (e_up ? e_unit : y);
-    vec3 _e137 = ltc_edge(b_end, a_start);
-    vec3 _e138 = ltc_edge(c_end, b_start);
-    vec3 _e140 = ltc_edge(d_end, c_start);
-    vec3 _e142 = ltc_edge(e_end, d_start);
-    vec3 _e144 = ltc_edge(a_end, e_start);
-    vec3 _e146 = ltc_edge(y, x);
-    return (((((_e137 + _e138) + _e140) + _e142) + _e144) + _e146);
+    if (!(((((a_up || b_up) || c_up) || d_up) || e_up))) {
+        return vec3(0.0);
+    }
+    vec3 a_unit = (a * inversesqrt(max(dot(a, a), LTC_TINY)));
+    vec3 b_unit = (b * inversesqrt(max(dot(b, b), LTC_TINY)));
+    vec3 c_unit = (c * inversesqrt(max(dot(c, c), LTC_TINY)));
+    vec3 d_unit = (d * inversesqrt(max(dot(d, d), LTC_TINY)));
+    vec3 e_unit = (e * inversesqrt(max(dot(e, e), LTC_TINY)));
+    a_start = a_unit;
+    b_start = b_unit;
+    c_start = c_unit;
+    d_start = d_unit;
+    e_start = e_unit;
+    a_end = a_unit;
+    b_end = b_unit;
+    c_end = c_unit;
+    d_end = d_unit;
+    e_end = e_unit;
+    if (!(((((a_up && b_up) && c_up) && d_up) && e_up))) {
+        bool leave_b = (b_up && !(c_up));
+        bool leave_c = (c_up && !(d_up));
+        bool leave_d = (d_up && !(e_up));
+        bool leave_e = (e_up && !(a_up));
+        vec3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
+        vec3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
+        vec3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
+        bool enter_b = (b_up && !(a_up));
+        bool enter_c = (c_up && !(b_up));
+        bool enter_d = (d_up && !(c_up));
+        bool enter_e = (e_up && !(d_up));
+        vec3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
+        vec3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
+        vec3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
+        vec3 _e115 = ltc_crossing(leave_from, leave_to, leave_normal);
+        vec3 _e117 = ltc_crossing(enter_to, enter_from, -(enter_normal));
+        vec3 leave = (_e115 * inversesqrt(max(dot(_e115, _e115), LTC_TINY)));
+        vec3 enter = (_e117 * inversesqrt(max(dot(_e117, _e117), LTC_TINY)));
+        a_end = (a_up ? a_unit : (e_up ? leave : enter));
+        b_end = (b_up ? b_unit : (a_up ? leave : enter));
+        c_end = (c_up ? c_unit : (b_up ? leave : enter));
+        d_end = (d_up ? d_unit : (c_up ? leave : enter));
+        e_end = (e_up ? e_unit : (d_up ? leave : enter));
+        a_start = (a_up ? a_unit : enter);
+        b_start = (b_up ? b_unit : enter);
+        c_start = (c_up ? c_unit : enter);
+        d_start = (d_up ? d_unit : enter);
+        e_start = (e_up ? e_unit : enter);
+        vec3 _e145 = ltc_edge(leave, enter, cross(leave, (enter - leave)));
+        horizon = _e145;
+    }
+    vec3 _e146 = a_start;
+    vec3 _e147 = b_end;
+    vec3 _e148 = ltc_edge(_e146, _e147, a_normal);
+    vec3 _e149 = b_start;
+    vec3 _e150 = c_end;
+    vec3 _e151 = ltc_edge(_e149, _e150, b_normal);
+    vec3 _e153 = c_start;
+    vec3 _e154 = d_end;
+    vec3 _e155 = ltc_edge(_e153, _e154, c_normal);
+    vec3 _e157 = d_start;
+    vec3 _e158 = e_end;
+    vec3 _e159 = ltc_edge(_e157, _e158, d_normal);
+    vec3 _e161 = e_start;
+    vec3 _e162 = a_end;
+    vec3 _e163 = ltc_edge(_e161, _e162, e_normal);
+    vec3 _e165 = horizon;
+    return -((((((_e148 + _e151) + _e155) + _e159) + _e163) + _e165));
 }
 
 // Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-// on or near it and the offsets of its vertices from there, all much shorter than the distance.
-vec3 ltc_far_pentagon(vec3 origin, vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
+// on or near it and the offsets of its vertices from there, with the normals of ltc_pentagon. Precise
+// however small the pentagon is.
+vec3 ltc_far_pentagon(vec3 origin, vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_normal, vec3 c_normal, vec3 d_normal, vec3 e_normal) {
     vec3 reference = (origin * inversesqrt(max(dot(origin, origin), LTC_TINY)));
-    vec3 _e12 = ltc_offset(origin, reference, (origin + a), a);
-    vec3 _e14 = ltc_offset(origin, reference, (origin + b), b);
-    vec3 _e16 = ltc_offset(origin, reference, (origin + c), c);
-    vec3 _e18 = ltc_offset(origin, reference, (origin + d), d);
-    vec3 _e20 = ltc_offset(origin, reference, (origin + e), e);
-    vec3 a_unit = (reference + _e12);
-    vec3 b_unit = (reference + _e14);
-    vec3 c_unit = (reference + _e16);
-    vec3 d_unit = (reference + _e18);
-    vec3 e_unit = (reference + _e20);
-    vec3 _e26 = ltc_edge_about(reference, b_unit, _e14, a_unit, _e12);
-    vec3 _e27 = ltc_edge_about(reference, c_unit, _e16, b_unit, _e14);
-    vec3 _e29 = ltc_edge_about(reference, d_unit, _e18, c_unit, _e16);
-    vec3 _e31 = ltc_edge_about(reference, e_unit, _e20, d_unit, _e18);
-    vec3 _e33 = ltc_edge_about(reference, a_unit, _e12, e_unit, _e20);
-    return ((((_e26 + _e27) + _e29) + _e31) + _e33);
+    vec3 a_point = (origin + a);
+    vec3 b_point = (origin + b);
+    vec3 c_point = (origin + c);
+    vec3 d_point = (origin + d);
+    vec3 e_point = (origin + e);
+    vec3 _e21 = ltc_offset(origin, reference, a_point, a);
+    vec3 _e22 = ltc_offset(origin, reference, b_point, b);
+    vec3 _e23 = ltc_offset(origin, reference, c_point, c);
+    vec3 _e24 = ltc_offset(origin, reference, d_point, d);
+    vec3 _e25 = ltc_offset(origin, reference, e_point, e);
+    vec3 a_unit = (a_point * inversesqrt(max(dot(a_point, a_point), LTC_TINY)));
+    vec3 b_unit = (b_point * inversesqrt(max(dot(b_point, b_point), LTC_TINY)));
+    vec3 c_unit = (c_point * inversesqrt(max(dot(c_point, c_point), LTC_TINY)));
+    vec3 d_unit = (d_point * inversesqrt(max(dot(d_point, d_point), LTC_TINY)));
+    vec3 e_unit = (e_point * inversesqrt(max(dot(e_point, e_point), LTC_TINY)));
+    vec3 _e51 = ltc_edge_about(reference, a_unit, _e21, b_unit, _e22, a_normal);
+    vec3 _e52 = ltc_edge_about(reference, b_unit, _e22, c_unit, _e23, b_normal);
+    vec3 _e54 = ltc_edge_about(reference, c_unit, _e23, d_unit, _e24, c_normal);
+    vec3 _e56 = ltc_edge_about(reference, d_unit, _e24, e_unit, _e25, d_normal);
+    vec3 _e58 = ltc_edge_about(reference, e_unit, _e25, a_unit, _e21, e_normal);
+    return -(((((_e51 + _e52) + _e54) + _e56) + _e58));
 }
 
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
@@ -499,79 +557,108 @@ vec3 ltc_quad(LtcSurface surface, LtcLobe lobe, vec3 a, vec3 b, vec3 c, vec3 d, 
         v_d = leave;
         v_e = (q_a + ((q_d - q_a) * (h.x / max((h.x - h.w), LTC_TINY))));
     }
-    vec3 _e169 = v_a;
-    vec3 _e170 = ltc_transform(lobe, _e169);
-    vec3 _e171 = v_b;
-    vec3 _e172 = ltc_transform(lobe, _e171);
-    vec3 _e173 = v_c;
-    vec3 _e174 = ltc_transform(lobe, _e173);
-    vec3 _e175 = v_d;
-    vec3 _e176 = ltc_transform(lobe, _e175);
-    vec3 _e177 = v_e;
-    vec3 _e178 = ltc_transform(lobe, _e177);
+    vec3 base = (distant ? p_a : vec3(0.0));
+    vec3 _e172 = v_a;
+    vec3 _e174 = v_b;
+    vec3 _e176 = v_b;
+    vec3 _e177 = v_a;
+    vec3 _e179 = ltc_edge_normal((base + _e172), (base + _e174), (_e176 - _e177));
+    vec3 _e180 = v_b;
+    vec3 _e182 = v_c;
+    vec3 _e184 = v_c;
+    vec3 _e185 = v_b;
+    vec3 _e187 = ltc_edge_normal((base + _e180), (base + _e182), (_e184 - _e185));
+    vec3 _e188 = v_c;
+    vec3 _e190 = v_d;
+    vec3 _e192 = v_d;
+    vec3 _e193 = v_c;
+    vec3 _e195 = ltc_edge_normal((base + _e188), (base + _e190), (_e192 - _e193));
+    vec3 _e198 = v_d;
+    vec3 _e200 = v_e;
+    vec3 _e202 = v_e;
+    vec3 _e203 = v_d;
+    vec3 _e205 = ltc_edge_normal((base + _e198), (base + _e200), (_e202 - _e203));
+    vec3 d_normal = (surface.normal * dot(surface.normal, _e205));
+    vec3 _e208 = v_e;
+    vec3 _e210 = v_a;
+    vec3 _e212 = v_a;
+    vec3 _e213 = v_e;
+    vec3 _e215 = ltc_edge_normal((base + _e208), (base + _e210), (_e212 - _e213));
+    vec3 _e216 = v_a;
+    vec3 _e217 = ltc_transform(lobe, _e216);
+    vec3 _e218 = v_b;
+    vec3 _e219 = ltc_transform(lobe, _e218);
+    vec3 _e220 = v_c;
+    vec3 _e221 = ltc_transform(lobe, _e220);
+    vec3 _e222 = v_d;
+    vec3 _e223 = ltc_transform(lobe, _e222);
+    vec3 _e224 = v_e;
+    vec3 _e225 = ltc_transform(lobe, _e224);
+    vec3 _e226 = ltc_transform(lobe, base);
+    vec3 _e227 = ltc_transform_normal(lobe, _e179);
+    vec3 _e228 = ltc_transform_normal(lobe, _e187);
+    vec3 _e229 = ltc_transform_normal(lobe, _e195);
+    vec3 _e230 = ltc_transform_normal(lobe, d_normal);
+    vec3 _e231 = ltc_transform_normal(lobe, _e215);
+    float lowest = (_e226.z + min(min(min(_e217.z, _e219.z), min(_e221.z, _e223.z)), _e225.z));
     if (distant) {
-        vec3 _e182 = v_a;
-        vec3 _e183 = v_b;
-        vec3 _e184 = v_c;
-        vec3 _e185 = v_d;
-        vec3 _e186 = v_e;
-        vec3 _e187 = ltc_far_pentagon(p_a, _e182, _e183, _e184, _e185, _e186);
-        sum = dot(surface.normal, _e187);
-        vec3 _e189 = ltc_transform(lobe, p_a);
-        float lobe_size = max(max(max(dot(_e170, _e170), dot(_e172, _e172)), max(dot(_e174, _e174), dot(_e176, _e176))), dot(_e178, _e178));
-        float lowest = (_e189.z + min(min(min(_e170.z, _e172.z), min(_e174.z, _e176.z)), _e178.z));
-        if (((lobe_size < (0.0625 * dot(_e189, _e189))) && (lowest > 0.0))) {
-            vec3 _e217 = ltc_far_pentagon(_e189, _e170, _e172, _e174, _e176, _e178);
-            lobe_sum = _e217;
-        } else {
-            vec3 _e223 = ltc_pentagon((_e189 + _e170), (_e189 + _e172), (_e189 + _e174), (_e189 + _e176), (_e189 + _e178));
-            lobe_sum = _e223;
-        }
-    } else {
-        vec3 _e224 = v_a;
-        vec3 _e225 = v_a;
-        vec3 _e226 = v_a;
-        vec3 a_unit = (_e224 * inversesqrt(max(dot(_e225, _e226), LTC_TINY)));
-        vec3 _e232 = v_b;
-        vec3 _e233 = v_b;
-        vec3 _e234 = v_b;
-        vec3 b_unit = (_e232 * inversesqrt(max(dot(_e233, _e234), LTC_TINY)));
-        vec3 _e240 = v_c;
-        vec3 _e241 = v_c;
-        vec3 _e242 = v_c;
-        vec3 c_unit = (_e240 * inversesqrt(max(dot(_e241, _e242), LTC_TINY)));
+        vec3 _e245 = v_a;
+        vec3 _e246 = v_b;
+        vec3 _e247 = v_c;
         vec3 _e248 = v_d;
-        vec3 _e249 = v_d;
-        vec3 _e250 = v_d;
-        vec3 d_unit = (_e248 * inversesqrt(max(dot(_e249, _e250), LTC_TINY)));
-        vec3 _e256 = v_e;
-        vec3 _e257 = v_e;
-        vec3 _e258 = v_e;
-        vec3 e_unit = (_e256 * inversesqrt(max(dot(_e257, _e258), LTC_TINY)));
-        vec3 _e264 = ltc_edge(b_unit, a_unit);
-        vec3 _e265 = ltc_edge(c_unit, b_unit);
-        vec3 _e267 = ltc_edge(d_unit, c_unit);
-        vec3 _e269 = ltc_edge(a_unit, e_unit);
-        vec3 edges = (((_e264 + _e265) + _e267) + _e269);
-        float _e274 = ltc_horizon_edge(e_unit, d_unit, surface.normal);
-        sum = (dot(surface.normal, edges) + _e274);
-        vec3 _e276 = ltc_pentagon(_e170, _e172, _e174, _e176, _e178);
-        lobe_sum = _e276;
+        vec3 _e249 = v_e;
+        vec3 _e250 = ltc_far_pentagon(p_a, _e245, _e246, _e247, _e248, _e249, _e179, _e187, _e195, d_normal, _e215);
+        sum = dot(surface.normal, _e250);
+    } else {
+        vec3 _e252 = v_a;
+        vec3 _e253 = v_a;
+        vec3 _e254 = v_a;
+        vec3 a_unit = (_e252 * inversesqrt(max(dot(_e253, _e254), LTC_TINY)));
+        vec3 _e260 = v_b;
+        vec3 _e261 = v_b;
+        vec3 _e262 = v_b;
+        vec3 b_unit = (_e260 * inversesqrt(max(dot(_e261, _e262), LTC_TINY)));
+        vec3 _e268 = v_c;
+        vec3 _e269 = v_c;
+        vec3 _e270 = v_c;
+        vec3 c_unit = (_e268 * inversesqrt(max(dot(_e269, _e270), LTC_TINY)));
+        vec3 _e276 = v_d;
+        vec3 _e277 = v_d;
+        vec3 _e278 = v_d;
+        vec3 d_unit = (_e276 * inversesqrt(max(dot(_e277, _e278), LTC_TINY)));
+        vec3 _e284 = v_e;
+        vec3 _e285 = v_e;
+        vec3 _e286 = v_e;
+        vec3 e_unit = (_e284 * inversesqrt(max(dot(_e285, _e286), LTC_TINY)));
+        vec3 _e292 = ltc_edge(a_unit, b_unit, _e179);
+        vec3 _e293 = ltc_edge(b_unit, c_unit, _e187);
+        vec3 _e295 = ltc_edge(c_unit, d_unit, _e195);
+        vec3 _e297 = ltc_edge(d_unit, e_unit, d_normal);
+        vec3 _e299 = ltc_edge(e_unit, a_unit, _e215);
+        vec3 edges = ((((_e292 + _e293) + _e295) + _e297) + _e299);
+        sum = -(dot(surface.normal, edges));
     }
-    float _e277 = sum;
-    vec3 _e280 = lobe_sum;
-    vec3 _e283 = ltc_value(surface, lobe, (_e277 * LTC_OVER_TWO_PI), (_e280 * LTC_OVER_TWO_PI), front, two_sided);
-    return _e283;
+    if ((distant && (lowest > 0.0))) {
+        vec3 _e308 = ltc_far_pentagon(_e226, _e217, _e219, _e221, _e223, _e225, _e227, _e228, _e229, _e230, _e231);
+        lobe_sum = _e308;
+    } else {
+        vec3 _e314 = ltc_pentagon((_e226 + _e217), (_e226 + _e219), (_e226 + _e221), (_e226 + _e223), (_e226 + _e225), _e227, _e228, _e229, _e230, _e231);
+        lobe_sum = _e314;
+    }
+    float _e315 = sum;
+    vec3 _e318 = lobe_sum;
+    vec3 _e321 = ltc_value(surface, lobe, (_e315 * LTC_OVER_TWO_PI), (_e318 * LTC_OVER_TWO_PI), front, two_sided);
+    return _e321;
 }
 
 // Starts a polygon at its first vertex.
-LtcPolygon ltc_polygon_begin(LtcSurface surface, vec3 vertex) {
+LtcPolygon ltc_polygon_begin(LtcSurface surface, vec3 corner) {
     LtcPolygon polygon = LtcPolygon(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0));
-    vec3 to_first = ((vertex * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
-    polygon.first = vertex;
+    vec3 to_first = ((corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
+    polygon.first = corner;
     float _e11 = ltc_extent(to_first);
     polygon.scale = (1.0 / max(_e11, LTC_TINY));
-    polygon.previous = vertex;
+    polygon.previous = corner;
     polygon.facing = 0.0;
     polygon.surface_crossing = vec3(0.0);
     polygon.surface_crossed = 0.0;
@@ -585,69 +672,64 @@ LtcPolygon ltc_polygon_begin(LtcSurface surface, vec3 vertex) {
     return _e40;
 }
 
-// ltc_edge_about for points and their offsets from `origin`, walked from `b` to `a` so that light
-// counts positive.
-vec3 ltc_edge_from(vec3 origin, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset) {
+// ltc_edge_about for points and their offsets from `origin`. A point far from `origin` may as well be
+// given by its direction.
+vec3 ltc_edge_from(vec3 origin, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal) {
     vec3 reference = (origin * inversesqrt(max(dot(origin, origin), LTC_TINY)));
     vec3 a_unit = (a * inversesqrt(max(dot(a, a), LTC_TINY)));
     vec3 b_unit = (b * inversesqrt(max(dot(b, b), LTC_TINY)));
-    vec3 _e20 = ltc_offset(origin, reference, a, a_offset);
-    vec3 _e21 = ltc_offset(origin, reference, b, b_offset);
-    vec3 _e22 = ltc_edge_about(reference, b_unit, _e21, a_unit, _e20);
-    return _e22;
+    vec3 _e21 = ltc_offset(origin, reference, a, a_offset);
+    vec3 _e22 = ltc_offset(origin, reference, b, b_offset);
+    vec3 _e23 = ltc_edge_about(reference, a_unit, _e21, b_unit, _e22, normal);
+    return _e23;
 }
 
 // Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
 void ltc_polygon_edge(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, bool closing) {
-    vec3 _e9 = ltc_edge_from(reference, a, a_offset, b, b_offset);
-    float along = dot(surface.normal, _e9);
-    float _e13 = polygon.diffuse;
-    polygon.diffuse = (_e13 + along);
-    float reach = max(dot(a_offset, a_offset), dot(b_offset, b_offset));
-    if ((closing && (reach >= (0.0625 * dot(reference, reference))))) {
-        vec3 a_unit = (a * inversesqrt(max(dot(a, a), LTC_TINY)));
-        vec3 b_unit = (b * inversesqrt(max(dot(b, b), LTC_TINY)));
-        vec3 _e33 = ltc_edge(b_unit, a_unit);
-        float _e35 = polygon.diffuse;
-        float _e37 = ltc_horizon_edge(b_unit, a_unit, surface.normal);
-        polygon.diffuse = (_e35 + (_e37 - dot(surface.normal, _e33)));
-    }
-    vec3 _e42 = ltc_transform(lobe, reference);
-    vec3 _e43 = ltc_transform(lobe, a);
-    vec3 _e44 = ltc_transform(lobe, b);
-    vec3 _e45 = ltc_transform(lobe, a_offset);
-    vec3 _e46 = ltc_transform(lobe, b_offset);
-    bool a_up = (_e43.z > 0.0);
-    bool b_up = (_e44.z > 0.0);
+    vec3 _e10 = ltc_edge_normal(a, b, (b_offset - a_offset));
+    vec3 normal_5 = (closing ? (surface.normal * dot(surface.normal, _e10)) : _e10);
+    float _e17 = polygon.diffuse;
+    vec3 _e19 = ltc_edge_from(reference, a, a_offset, b, b_offset, normal_5);
+    polygon.diffuse = (_e17 - dot(surface.normal, _e19));
+    vec3 _e22 = ltc_transform(lobe, reference);
+    vec3 _e23 = ltc_transform(lobe, a);
+    vec3 _e24 = ltc_transform(lobe, b);
+    vec3 _e25 = ltc_transform(lobe, a_offset);
+    vec3 _e26 = ltc_transform(lobe, b_offset);
+    vec3 _e27 = ltc_transform_normal(lobe, normal_5);
+    bool a_up = (_e23.z > 0.0);
+    bool b_up = (_e24.z > 0.0);
     if ((a_up && b_up)) {
-        vec3 _e55 = polygon.lobe_sum;
-        vec3 _e56 = ltc_edge_from(_e42, _e43, _e45, _e44, _e46);
-        polygon.lobe_sum = (_e55 + _e56);
+        vec3 _e36 = polygon.lobe_sum;
+        vec3 _e37 = ltc_edge_from(_e22, _e23, _e25, _e24, _e26, _e27);
+        polygon.lobe_sum = (_e36 - _e37);
         return;
     } else {
         if ((a_up || b_up)) {
-            vec3 above = (a_up ? _e43 : _e44);
-            vec3 below = (a_up ? _e44 : _e43);
-            vec3 above_offset = (a_up ? _e45 : _e46);
-            vec3 below_offset = (a_up ? _e46 : _e45);
+            vec3 above = (a_up ? _e23 : _e24);
+            vec3 below = (a_up ? _e24 : _e23);
+            vec3 above_offset = (a_up ? _e25 : _e26);
+            vec3 below_offset = (a_up ? _e26 : _e25);
             float t = (above.z / max((above.z - below.z), LTC_TINY));
-            vec3 _e70 = ltc_crossing(above, below);
+            vec3 _e53 = ltc_crossing(above, below, (a_up ? _e27 : -(_e27)));
             vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-            float _e75 = polygon.lobe_crossed;
-            if ((_e75 > 0.0)) {
+            float _e58 = polygon.lobe_crossed;
+            if ((_e58 > 0.0)) {
                 vec3 base = polygon.lobe_crossing;
                 vec3 base_offset = polygon.lobe_crossing_offset;
-                vec3 _e83 = polygon.lobe_sum;
-                vec3 _e88 = ltc_edge_from(_e42, (a_up ? _e70 : base), (a_up ? crossing_offset : base_offset), (a_up ? base : _e70), (a_up ? base_offset : crossing_offset));
-                polygon.lobe_sum = (_e83 + _e88);
+                vec3 start = (a_up ? _e53 : base);
+                vec3 end = (a_up ? base : _e53);
+                vec3 _e68 = polygon.lobe_sum;
+                vec3 _e73 = ltc_edge_from(_e22, start, (a_up ? crossing_offset : base_offset), end, (a_up ? base_offset : crossing_offset), cross(start, (end - start)));
+                polygon.lobe_sum = (_e68 - _e73);
             } else {
                 polygon.lobe_crossed = 1.0;
-                polygon.lobe_crossing = _e70;
+                polygon.lobe_crossing = _e53;
                 polygon.lobe_crossing_offset = crossing_offset;
             }
-            vec3 _e95 = polygon.lobe_sum;
-            vec3 _e100 = ltc_edge_from(_e42, (a_up ? _e43 : _e70), (a_up ? _e45 : crossing_offset), (a_up ? _e70 : _e44), (a_up ? crossing_offset : _e46));
-            polygon.lobe_sum = (_e95 + _e100);
+            vec3 _e80 = polygon.lobe_sum;
+            vec3 _e85 = ltc_edge_from(_e22, (a_up ? _e23 : _e53), (a_up ? _e25 : crossing_offset), (a_up ? _e53 : _e24), (a_up ? crossing_offset : _e26), _e27);
+            polygon.lobe_sum = (_e80 - _e85);
             return;
         } else {
             return;
@@ -656,13 +738,13 @@ void ltc_polygon_edge(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe
 }
 
 // Adds the next vertex.
-void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, vec3 vertex) {
+void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, vec3 corner) {
     vec3 origin = (surface.position * LTC_HEADROOM);
     vec3 _e8 = polygon.first;
     vec3 first_far = (_e8 * LTC_HEADROOM);
     vec3 _e12 = polygon.previous;
     vec3 a_far = (_e12 * LTC_HEADROOM);
-    vec3 b_far = (vertex * LTC_HEADROOM);
+    vec3 b_far = (corner * LTC_HEADROOM);
     float _e18 = ltc_extent((a_far - origin));
     float _e20 = ltc_extent((b_far - origin));
     float extent = max(_e18, _e20);
@@ -675,7 +757,7 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe,
     vec3 b_offset = ((b_far - first_far) * scale_1);
     float _e40 = polygon.facing;
     polygon.facing = (_e40 + dot(cross(a_offset, b_offset), reference));
-    polygon.previous = vertex;
+    polygon.previous = corner;
     float height = dot(surface.normal, reference);
     bool near = (max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < (0.0625 * dot(reference, reference)));
     float a_height = (near ? (height + dot(surface.normal, a_offset)) : dot(surface.normal, a));

@@ -126,7 +126,9 @@ pub fn shade(table: &Table, technique: Technique, quad: &Quad) -> [f64; 2] {
             let lobe = Lobe::from_entries(table.sample::<f64>(0, at).into());
             let amplitude = table.sample::<f64>(1, at);
             let [a, b, c, d] = quad.corners.map(|corner| lobe.transform(corner));
-            let form_factor = ltc_pentagon::<f64>(a, b, c, d, d).z / core::f64::consts::TAU;
+            let vertices = [a, b, c, d, d];
+            let normals = core::array::from_fn(|i| vertices[i].cross(vertices[(i + 1) % 5]));
+            let form_factor = ltc_pentagon::<f64>(vertices, normals).z / core::f64::consts::TAU;
             let form_factor = form_factor.max(0.0);
             [amplitude.x * form_factor, amplitude.y * form_factor]
         }

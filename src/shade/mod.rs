@@ -25,11 +25,12 @@ mod surface;
 
 pub use polygon::{LtcPolygon, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end};
 pub use quad::{
-    ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_far_pentagon, ltc_horizon_edge, ltc_offset,
+    ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_edge_normal, ltc_far_pentagon, ltc_offset,
     ltc_pentagon, ltc_quad,
 };
 pub use real::{Real, Vector, angle_excess};
 pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
-    ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates, ltc_transform, ltc_value,
+    ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates, ltc_transform, ltc_transform_normal,
+    ltc_value,
 };

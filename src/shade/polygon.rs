@@ -1,9 +1,10 @@
 //! Polygons of any number of vertices, convex or not, vertex by vertex.
 
-use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge, ltc_edge_about, ltc_horizon_edge, ltc_offset};
+use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_offset};
 use super::real::{Real, Vector};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_value, unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_transform_normal,
+    ltc_value, unit,
 };
 
 /// State of a polygon that is given vertex by vertex.
@@ -34,14 +35,14 @@ impl<R: Real> Point<R> {
 }
 
 /// Starts a polygon at its first vertex.
-pub fn ltc_polygon_begin<R: Real>(surface: &LtcSurface<R>, vertex: R::Vec3) -> LtcPolygon<R> {
+pub fn ltc_polygon_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> LtcPolygon<R> {
     let zero: R = constant(0.0);
     let headroom: R = constant(LTC_HEADROOM);
-    let to_first = vertex * headroom - surface.position * headroom;
+    let to_first = corner * headroom - surface.position * headroom;
     LtcPolygon {
-        first: vertex,
+        first: corner,
         scale: constant::<R>(1.0) / ltc_extent::<R>(to_first).max(constant(LTC_TINY)),
-        previous: vertex,
+        previous: corner,
         facing: zero,
         diffuse: zero,
         lobe_sum: R::Vec3::new(zero, zero, zero),
@@ -55,19 +56,19 @@ pub fn ltc_polygon_add<R: Real>(
     polygon: &mut LtcPolygon<R>,
     surface: &LtcSurface<R>,
     lobe: &LtcLobe<R>,
-    vertex: R::Vec3,
+    corner: R::Vec3,
 ) {
     let headroom: R = constant(LTC_HEADROOM);
     let origin = surface.position * headroom;
     let first = polygon.first * headroom;
-    let (a, b) = (polygon.previous * headroom, vertex * headroom);
+    let (a, b) = (polygon.previous * headroom, corner * headroom);
     let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
     let scale = polygon.scale.min(constant::<R>(1e12) / extent.max(constant(1e-25)));
     let place = |v: R::Vec3| Point::<R> { at: (v - origin) * scale, offset: (v - first) * scale };
     let reference = place(first).at;
     let (a, b) = (place(a), place(b));
     polygon.facing += a.offset.cross(b.offset).dot(reference);
-    polygon.previous = vertex;
+    polygon.previous = corner;
 
     let normal = surface.normal;
     let height = normal.dot(reference);
@@ -147,30 +148,30 @@ fn ltc_polygon_edge<R: Real>(
     (a, b): Edge<R>,
     closing: bool,
 ) {
-    polygon.diffuse += surface.normal.dot(ltc_edge_from(reference, (a, b)));
-    let reach = a.offset.dot(a.offset).max(b.offset.dot(b.offset));
-    if closing & (reach >= constant::<R>(0.0625) * reference.dot(reference)) {
-        let (a_unit, b_unit) = (unit::<R>(a.at), unit::<R>(b.at));
-        let upright = ltc_edge::<R>(b_unit, a_unit);
-        polygon.diffuse +=
-            ltc_horizon_edge::<R>(b_unit, a_unit, surface.normal) - surface.normal.dot(upright);
-    }
+    let product = ltc_edge_normal::<R>(a.at, b.at, b.offset - a.offset);
+    let normal = if closing { surface.normal * surface.normal.dot(product) } else { product };
+    polygon.diffuse += -surface.normal.dot(ltc_edge_from(reference, (a, b), normal));
+
     let reference = ltc_transform(lobe, reference);
+    let normal = ltc_transform_normal(lobe, normal);
     let (a, b) = (a.transform(lobe), b.transform(lobe));
+    let turned = if a.at.z() > constant(0.0) { normal } else { -normal };
     let edges = cut((a, a.at.z()), (b, b.at.z()), &mut polygon.lobe_crossing, |above, below, t| Point {
-        at: ltc_crossing::<R>(above.at, below.at),
+        at: ltc_crossing::<R>(above.at, below.at, turned),
         offset: above.offset + (below.offset - above.offset) * t,
     });
-    for (edge, _) in edges.into_iter().flatten() {
-        polygon.lobe_sum = polygon.lobe_sum + ltc_edge_from(reference, edge);
+    for (edge, closing) in edges.into_iter().flatten() {
+        let (start, end) = edge;
+        let normal = if closing { start.at.cross(end.at - start.at) } else { normal };
+        polygon.lobe_sum = polygon.lobe_sum - ltc_edge_from(reference, edge, normal);
     }
 }
 
 /// [`ltc_edge_about`](super::ltc_edge_about) for points and their offsets from `origin`.
-fn ltc_edge_from<R: Real>(origin: R::Vec3, (a, b): Edge<R>) -> R::Vec3 {
+fn ltc_edge_from<R: Real>(origin: R::Vec3, (a, b): Edge<R>, normal: R::Vec3) -> R::Vec3 {
     let reference = unit::<R>(origin);
     let (a_unit, b_unit) = (unit::<R>(a.at), unit::<R>(b.at));
     let a_away = ltc_offset::<R>(origin, reference, a.at, a.offset);
     let b_away = ltc_offset::<R>(origin, reference, b.at, b.offset);
-    ltc_edge_about::<R>(reference, b_unit, b_away, a_unit, a_away)
+    ltc_edge_about::<R>(reference, a_unit, a_away, b_unit, b_away, normal)
 }

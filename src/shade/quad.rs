@@ -2,7 +2,8 @@
 
 use super::real::{Real, Vector};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_value, unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_transform_normal,
+    ltc_value, unit,
 };
 
 pub(super) const OVER_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
@@ -12,29 +13,26 @@ pub fn ltc_angle_excess<R: Real>(k: R) -> R {
     R::angle_excess(k)
 }
 
-/// The edge integral (θ / sin θ)(a × b) of two unit vectors with the angle θ between them.
-pub fn ltc_edge<R: Real>(a: R::Vec3, b: R::Vec3) -> R::Vec3 {
+/// The cross product a × b of two vectors whose difference b − a is `side`, from the shorter of the two.
+pub fn ltc_edge_normal<R: Real>(a: R::Vec3, b: R::Vec3, side: R::Vec3) -> R::Vec3 {
+    (if b.dot(b) < a.dot(a) { b } else { a }).cross(side)
+}
+
+/// The edge integral of the segment between two directions: the angle between the unit vectors `a` and `b`
+/// along the unit normal of their plane. `normal`, of any length, has the direction of a × b.
+pub fn ltc_edge<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3) -> R::Vec3 {
     let (zero, one, two) = (R::new(0.0), R::new(1.0), R::new(2.0));
     let chord = b - a;
-    let normal = a.cross(chord);
+    let cross_product = a.cross(chord);
+    let squared = cross_product.dot(cross_product);
+    let sine = squared * squared.max(constant(1e-30)).inverse_sqrt();
     let k = constant::<R>(0.5) * chord.dot(chord);
-    let excess = ltc_angle_excess(k.min((two - k).max(zero)));
-    let obtuse = constant::<R>(core::f64::consts::PI)
-        * normal.dot(normal).max(constant(1e-30)).inverse_sqrt()
-        - (one + excess);
-    normal * if k > one { obtuse } else { one + excess }
+    let acute = sine + sine * ltc_angle_excess(k.min((two - k).max(zero)));
+    let angle = if k > one { constant::<R>(core::f64::consts::PI) - acute } else { acute };
+    normal * (angle * normal.dot(normal).max(constant(LTC_TINY)).inverse_sqrt())
 }
 
-/// The edge integral's signed length for an edge on the surface's horizon: the angle from `a` to `b`
-/// around `normal`.
-pub fn ltc_horizon_edge<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3) -> R {
-    let integral = ltc_edge::<R>(a, b);
-    let squared = integral.dot(integral);
-    let angle = squared * squared.max(constant(1e-30)).inverse_sqrt();
-    if integral.dot(normal) > constant(0.0) { angle } else { -angle }
-}
-
-/// The edge integral of unit vectors `a` and `b`, less a part that vanishes over every closed
+/// The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
 /// polygon; see the include. The offsets are a − reference and b − reference.
 pub fn ltc_edge_about<R: Real>(
     reference: R::Vec3,
@@ -42,94 +40,105 @@ pub fn ltc_edge_about<R: Real>(
     a_offset: R::Vec3,
     b: R::Vec3,
     b_offset: R::Vec3,
+    normal: R::Vec3,
 ) -> R::Vec3 {
-    let (zero, one, two) = (R::new(0.0), R::new(1.0), R::new(2.0));
     let half: R = constant(0.5);
     let (a_squared, b_squared) = (a_offset.dot(a_offset), b_offset.dot(b_offset));
-    let chord = if a_squared.max(b_squared) < constant(0.0625) { b_offset - a_offset } else { b - a };
-    let normal = a.cross(chord);
-    let k = half * chord.dot(chord);
-    let excess = ltc_angle_excess(k.min((two - k).max(zero)));
-    let obtuse = constant::<R>(core::f64::consts::PI)
-        * normal.dot(normal).max(constant(1e-30)).inverse_sqrt()
-        - (two + excess);
     let along = reference.dot(a_offset.cross(b_offset));
     let across = (a_offset * b_squared - b_offset * a_squared) * half;
-    reference * along + reference.cross(across) + normal * if k > one { obtuse } else { excess }
+    let common_part = reference * along + reference.cross(across);
+    let part = if a_squared.max(b_squared) < constant(0.0625) {
+        let chord = b_offset - a_offset;
+        a.cross(chord) * ltc_angle_excess((half * chord.dot(chord)).min(constant(1.0)))
+    } else {
+        ltc_edge::<R>(a, b, normal) - a.cross(b - a)
+    };
+    common_part + part
 }
 
-/// Difference of the directions of `point` and `origin`, which differ by `offset`, with the
+/// Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
 /// relative precision of `offset`. `reference` is the direction of `origin`.
-pub fn ltc_offset<R: Real>(origin: R::Vec3, reference: R::Vec3, point: R::Vec3, offset: R::Vec3) -> R::Vec3 {
-    let square = point.dot(point);
+pub fn ltc_offset<R: Real>(
+    origin: R::Vec3,
+    reference: R::Vec3,
+    target_point: R::Vec3,
+    offset: R::Vec3,
+) -> R::Vec3 {
+    let square = target_point.dot(target_point);
     let inverse_length = square.max(constant(LTC_TINY)).inverse_sqrt();
     let length_sum = square * inverse_length + origin.dot(reference);
-    let length_difference = offset.dot(origin + point) / length_sum.max(constant(LTC_TINY));
+    let length_difference = offset.dot(origin + target_point) / length_sum.max(constant(LTC_TINY));
     if offset.dot(offset) < constant::<R>(0.0625) * origin.dot(origin) {
         (offset - reference * length_difference) * inverse_length
     } else {
-        point * inverse_length - reference
+        target_point * inverse_length - reference
     }
 }
 
-/// Where the segment from `a`, above the plane z = 0, to `b`, not above it, meets that plane.
-pub fn ltc_crossing<R: Real>(a: R::Vec3, b: R::Vec3) -> R::Vec3 {
-    let t = a.z() / (a.z() - b.z()).max(constant(LTC_TINY));
-    R::Vec3::new(a.x() + (b.x() - a.x()) * t, a.y() + (b.y() - a.y()) * t, constant(0.0))
-}
-
-/// Vector form factor, times 2π and signed, of a convex pentagon cut at z = 0.
-pub fn ltc_pentagon<R: Real>(a: R::Vec3, b: R::Vec3, c: R::Vec3, d: R::Vec3, e: R::Vec3) -> R::Vec3 {
+/// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where it
+/// passes the surface point closely. `normal` has the direction of above × below.
+pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) -> R::Vec3 {
     let zero: R = constant(0.0);
-    let vertices = [a, b, c, d, e];
+    let t = above.z() / (above.z() - below.z()).max(constant(LTC_TINY));
+    let between =
+        R::Vec3::new(above.x() + (below.x() - above.x()) * t, above.y() + (below.y() - above.y()) * t, zero);
+    let turned = R::Vec3::new(normal.y(), -normal.x(), zero);
+    let cancels = between.dot(between) < constant::<R>(1e-6) * above.dot(above).max(below.dot(below));
+    let tilted = turned.dot(turned) > constant::<R>(1e-3) * normal.dot(normal);
+    if cancels & tilted { turned } else { between }
+}
+
+/// Vector form factor, times 2π and signed, of a convex pentagon in the lobe's space, cut at the lobe's
+/// horizon. Each normal has the direction of the cross product of its vertex and the next one.
+pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::Vec3 {
+    let zero: R = constant(0.0);
     let up = vertices.map(|v| v.z() > zero);
-    let units = vertices.map(unit::<R>);
-    let sum = |starts: [R::Vec3; 5], ends: [R::Vec3; 5]| {
-        ltc_edge::<R>(ends[1], starts[0])
-            + ltc_edge::<R>(ends[2], starts[1])
-            + ltc_edge::<R>(ends[3], starts[2])
-            + ltc_edge::<R>(ends[4], starts[3])
-            + ltc_edge::<R>(ends[0], starts[4])
-    };
-    if up == [true; 5] {
-        return sum(units, units);
-    }
     if up == [false; 5] {
         return R::Vec3::new(zero, zero, zero);
     }
-    // The last edge that leaves the upper side and the last one that comes back, as in the include;
-    // a convex polygon has one of each.
-    let edge_after = |i: usize| (i + 1) % 5;
-    let (mut leaving, mut entering) = (0, 4);
-    for i in 1..5 {
-        if up[i] & !up[edge_after(i)] {
-            leaving = i;
+    let units = vertices.map(unit::<R>);
+    let (mut starts, mut ends) = (units, units);
+    let mut horizon = R::Vec3::new(zero, zero, zero);
+    if up != [true; 5] {
+        // The last edge that leaves the upper side and the last one that comes back, as in the include;
+        // a convex polygon has one of each.
+        let next = |i: usize| (i + 1) % 5;
+        let (mut leaving, mut entering) = (0, 4);
+        for i in 1..5 {
+            if up[i] & !up[next(i)] {
+                leaving = i;
+            }
+            if up[i] & !up[i - 1] {
+                entering = i - 1;
+            }
         }
-        if up[i] & !up[i - 1] {
-            entering = i - 1;
-        }
+        let (from, to) = (vertices[leaving], vertices[next(leaving)]);
+        let leave = unit::<R>(ltc_crossing::<R>(from, to, normals[leaving]));
+        let (from, to) = (vertices[entering], vertices[next(entering)]);
+        let enter = unit::<R>(ltc_crossing::<R>(to, from, -normals[entering]));
+        ends = core::array::from_fn(|i| match (up[i], up[(i + 4) % 5]) {
+            (true, _) => units[i],
+            (false, true) => leave,
+            (false, false) => enter,
+        });
+        starts = core::array::from_fn(|i| if up[i] { units[i] } else { enter });
+        horizon = ltc_edge::<R>(leave, enter, leave.cross(enter - leave));
     }
-    let x = unit::<R>(ltc_crossing::<R>(vertices[leaving], vertices[edge_after(leaving)]));
-    let y = unit::<R>(ltc_crossing::<R>(vertices[edge_after(entering)], vertices[entering]));
-    let ends = core::array::from_fn(|i| match (up[i], up[(i + 4) % 5]) {
-        (true, _) => units[i],
-        (false, true) => x,
-        (false, false) => y,
-    });
-    let starts = core::array::from_fn(|i| if up[i] { units[i] } else { y });
-    sum(starts, ends) + ltc_edge::<R>(y, x)
+    let edge = |i: usize| ltc_edge::<R>(starts[i], ends[(i + 1) % 5], normals[i]);
+    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4) + horizon)
 }
 
 /// Vector form factor, times 2π and signed, of a pentagon above the horizon from one point `origin` on
 /// or near it and the offsets of its vertices from there.
-pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5]) -> R::Vec3 {
+pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::Vec3 {
     let reference = unit::<R>(origin);
     let offsets = vertices.map(|v| ltc_offset::<R>(origin, reference, origin + v, v));
-    let units = offsets.map(|offset| reference + offset);
-    let edge = |from: usize, to: usize| {
-        ltc_edge_about::<R>(reference, units[from], offsets[from], units[to], offsets[to])
+    let units = vertices.map(|v| unit::<R>(origin + v));
+    let edge = |i: usize| {
+        let next = (i + 1) % 5;
+        ltc_edge_about::<R>(reference, units[i], offsets[i], units[next], offsets[next], normals[i])
     };
-    edge(1, 0) + edge(2, 1) + edge(3, 2) + edge(4, 3) + edge(0, 4)
+    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light; see the include for its domain
@@ -185,29 +194,27 @@ pub fn ltc_quad<R: Real>(
         let kept = |i: usize| if h[i] > zero { q[i] } else { leave };
         v = [q[0], kept(1), kept(2), leave, cross(0, 3)];
     }
+    let base = if distant { p_a } else { nothing };
+    let mut normals: [R::Vec3; 5] = core::array::from_fn(|i| {
+        let (a, b) = (v[i], v[(i + 1) % 5]);
+        ltc_edge_normal::<R>(base + a, base + b, b - a)
+    });
+    normals[3] = surface.normal * surface.normal.dot(normals[3]);
     let l = v.map(|v| ltc_transform(lobe, v));
-    let (sum, lobe_sum) = if distant {
-        let sum = surface.normal.dot(ltc_far_pentagon::<R>(p_a, v));
-        let l_first = ltc_transform(lobe, p_a);
-        let lobe_size = l.iter().fold(zero, |size, v| size.max(v.dot(*v)));
-        let lowest = l_first.z() + l.iter().fold(l[0].z(), |low, v| low.min(v.z()));
-        let near = lobe_size < constant::<R>(0.0625) * l_first.dot(l_first);
-        let lobe_sum = if near & (lowest > zero) {
-            ltc_far_pentagon::<R>(l_first, l)
-        } else {
-            let [a, b, c, d, e] = l.map(|v| l_first + v);
-            ltc_pentagon::<R>(a, b, c, d, e)
-        };
-        (sum, lobe_sum)
+    let l_base = ltc_transform(lobe, base);
+    let l_normals = normals.map(|normal| ltc_transform_normal(lobe, normal));
+    let lowest = l_base.z() + l.iter().fold(l[0].z(), |low, v| low.min(v.z()));
+    let sum = if distant {
+        surface.normal.dot(ltc_far_pentagon::<R>(p_a, v, normals))
     } else {
         let u = v.map(unit::<R>);
-        let edges = ltc_edge::<R>(u[1], u[0])
-            + ltc_edge::<R>(u[2], u[1])
-            + ltc_edge::<R>(u[3], u[2])
-            + ltc_edge::<R>(u[0], u[4]);
-        let sum = surface.normal.dot(edges) + ltc_horizon_edge::<R>(u[4], u[3], surface.normal);
-        let [a, b, c, d, e] = l;
-        (sum, ltc_pentagon::<R>(a, b, c, d, e))
+        let edge = |i: usize| ltc_edge::<R>(u[i], u[(i + 1) % 5], normals[i]);
+        -surface.normal.dot(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
+    };
+    let lobe_sum = if distant & (lowest > zero) {
+        ltc_far_pentagon::<R>(l_base, l, l_normals)
+    } else {
+        ltc_pentagon::<R>(l.map(|v| l_base + v), l_normals)
     };
     ltc_value(surface, lobe, sum * over_two_pi, lobe_sum * over_two_pi, front, two_sided)
 }

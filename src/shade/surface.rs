@@ -37,8 +37,8 @@ pub struct LtcSurface<R: Real> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LtcLobe<R: Real> {
     /// Entries (x, y, z, w) of the inverse matrix, rows (x, 0, z), (0, 1, 0), (y, 0, w).
-    pub inverse: [R; 4],
-    /// First row of the matrix that leads from the caller's space to the lobe's.
+    pub entries: R::Vec4,
+    /// First row of the matrix that leads vectors from the caller's space to the lobe's.
     pub axis_x: R::Vec3,
     /// ∫ f·cos over the hemisphere.
     pub albedo: R,
@@ -50,6 +50,12 @@ pub struct LtcLobe<R: Real> {
     pub axis_z: R::Vec3,
     /// Share of the lobe's energy above the surface.
     pub share: R,
+    /// First row of the matrix that leads cross products of vectors there.
+    pub normal_x: R::Vec3,
+    /// Determinant of the entries.
+    pub volume: R,
+    /// Third row of that matrix; the second is `volume` times `axis_y`.
+    pub normal_z: R::Vec3,
 }
 
 pub(super) fn constant<R: Real>(value: f64) -> R {
@@ -125,19 +131,27 @@ pub fn ltc_lobe<R: Real>(surface: &LtcSurface<R>, shape: R::Vec4, amplitude: R::
     let m = [c * c + a * x, a * s * y, s * (c + a * z), a * w];
     let half: R = constant(0.5);
     LtcLobe {
-        inverse: m,
+        entries: m.into(),
         axis_x: surface.tangent * m[0] + surface.normal * m[2],
         albedo,
         axis_y: surface.bitangent,
         fresnel,
         axis_z: surface.tangent * m[1] + surface.normal * m[3],
         share: half + half * m[0] * (m[0] * m[0] + m[1] * m[1]).max(constant(LTC_TINY)).inverse_sqrt(),
+        normal_x: surface.tangent * m[3] - surface.normal * m[1],
+        volume: m[0] * m[3] - m[1] * m[2],
+        normal_z: surface.normal * m[0] - surface.tangent * m[2],
     }
 }
 
 /// `v`, a vector from the surface point, in the lobe's space.
 pub fn ltc_transform<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
     R::Vec3::new(lobe.axis_x.dot(v), lobe.axis_y.dot(v), lobe.axis_z.dot(v))
+}
+
+/// The cross product of two vectors from the surface point, in the lobe's space.
+pub fn ltc_transform_normal<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
+    R::Vec3::new(lobe.normal_x.dot(v), lobe.volume * lobe.axis_y.dot(v), lobe.normal_z.dot(v))
 }
 
 /// Reflected radiance from the value (diffuse, specular, fresnel) of a light.
@@ -158,11 +172,10 @@ pub fn ltc_specular<R: Real>(
     toward: R::Vec3,
 ) -> R::Vec2 {
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
-    let [x, y, z, w] = lobe.inverse;
-    let determinant = x * w - y * z;
+    let [x, y, z, w] = lobe.entries.into();
     let direction = R::Vec3::new(
         w * toward.x() - z * toward.z(),
-        determinant * toward.y(),
+        lobe.volume * toward.y(),
         x * toward.z() - y * toward.x(),
     );
     let unit = ltc_direction::<R>(direction);
