@@ -347,10 +347,16 @@ fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, target_point: vec3<f32>, 
     return select(far, near, dot(offset, offset) < 0.0625 * dot(origin, origin));
 }
 
+/// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
+/// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
+fn ltc_is_above(v: vec3<f32>) -> bool {
+    return (v.z > 0.0) | (v.z * v.z < 1e-12 * dot(v, v));
+}
+
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
 /// it passes the surface point closely. `normal` has the direction of above x below.
 fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
-    let t = above.z / max(above.z - below.z, LTC_TINY);
+    let t = max(above.z, 0.0) / max(above.z - below.z, LTC_TINY);
     let between = vec3<f32>(above.xy + (below.xy - above.xy) * t, 0.0);
     // Where the segment passes the surface point closely the ends cancel; the plane of the segment still
     // has its digits, unless it is that of the horizon.
@@ -368,11 +374,11 @@ fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>) -> vec3<f
 /// horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
 /// next one. Repeated vertices make it any smaller polygon.
 fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>) -> vec3<f32> {
-    let a_up = a.z > 0.0;
-    let b_up = b.z > 0.0;
-    let c_up = c.z > 0.0;
-    let d_up = d.z > 0.0;
-    let e_up = e.z > 0.0;
+    let a_up = ltc_is_above(a);
+    let b_up = ltc_is_above(b);
+    let c_up = ltc_is_above(c);
+    let d_up = ltc_is_above(d);
+    let e_up = ltc_is_above(e);
     if (!(a_up | b_up | c_up | d_up | e_up)) {
         return vec3<f32>(0.0);
     }
@@ -423,7 +429,7 @@ fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<
         c_start = select(enter, c_unit, c_up);
         d_start = select(enter, d_unit, d_up);
         e_start = select(enter, e_unit, e_up);
-        horizon = ltc_edge(leave, enter, cross(leave, enter - leave));
+        horizon = ltc_edge(leave, enter, ltc_edge_normal(leave_point, enter_point, enter_point - leave_point));
     }
     return -(ltc_edge(a_start, b_end, a_normal) + ltc_edge(b_start, c_end, b_normal) + ltc_edge(c_start, d_end, c_normal)
         + ltc_edge(d_start, e_end, d_normal) + ltc_edge(e_start, a_end, e_normal) + horizon);
@@ -683,8 +689,8 @@ fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lob
     let m_a_offset = ltc_transform(lobe, a_offset);
     let m_b_offset = ltc_transform(lobe, b_offset);
     let m_normal = ltc_transform_normal(lobe, normal);
-    let a_up = m_a.z > 0.0;
-    let b_up = m_b.z > 0.0;
+    let a_up = ltc_is_above(m_a);
+    let b_up = ltc_is_above(m_b);
     if (a_up & b_up) {
         (*polygon).lobe_sum -= ltc_edge_from(m, m_a, m_a_offset, m_b, m_b_offset, m_normal);
     } else if (a_up | b_up) {
@@ -692,7 +698,7 @@ fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lob
         let below = select(m_a, m_b, a_up);
         let above_offset = select(m_b_offset, m_a_offset, a_up);
         let below_offset = select(m_a_offset, m_b_offset, a_up);
-        let t = above.z / max(above.z - below.z, LTC_TINY);
+        let t = max(above.z, 0.0) / max(above.z - below.z, LTC_TINY);
         let crossing = ltc_crossing(above, below, select(-m_normal, m_normal, a_up));
         let crossing_offset = above_offset + (below_offset - above_offset) * t;
         if ((*polygon).lobe_crossed > 0.0) {
@@ -701,7 +707,7 @@ fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lob
             let start = select(base, crossing, a_up);
             let end = select(crossing, base, a_up);
             (*polygon).lobe_sum -= ltc_edge_from(m, start, select(base_offset, crossing_offset, a_up), end,
-                select(crossing_offset, base_offset, a_up), cross(start, end - start));
+                select(crossing_offset, base_offset, a_up), ltc_edge_normal(start, end, end - start));
         } else {
             (*polygon).lobe_crossed = 1.0;
             (*polygon).lobe_crossing = crossing;

@@ -345,10 +345,16 @@ vec3 ltc_offset(vec3 origin, vec3 reference, vec3 target_point, vec3 offset) {
     return ((dot(offset, offset) < (0.0625 * dot(origin, origin))) ? near : far);
 }
 
+// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
+// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
+bool ltc_is_above(vec3 v) {
+    return ((v.z > 0.0) || ((v.z * v.z) < (1e-12 * dot(v, v))));
+}
+
 // Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
 // it passes the surface point closely. `normal` has the direction of above x below.
 vec3 ltc_crossing(vec3 above, vec3 below, vec3 normal) {
-    float t = (above.z / max((above.z - below.z), LTC_TINY));
+    float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
     vec3 between = vec3((above.xy + ((below.xy - above.xy) * t)), 0.0);
     vec3 turned = vec3(normal.y, -(normal.x), 0.0);
     bool cancels = (dot(between, between) < (1e-6 * max(dot(above, above), dot(below, below))));
@@ -371,12 +377,12 @@ vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_
     vec3 d_end = vec3(0.0);
     vec3 e_end = vec3(0.0);
     vec3 horizon = vec3(0.0);
-    bool a_up = (a.z > 0.0);
-    bool b_up = (b.z > 0.0);
-    bool c_up = (c.z > 0.0);
-    bool d_up = (d.z > 0.0);
-    bool e_up = (e.z > 0.0);
-    if (!(((((a_up || b_up) || c_up) || d_up) || e_up))) {
+    bool _e10 = ltc_is_above(a);
+    bool _e11 = ltc_is_above(b);
+    bool _e12 = ltc_is_above(c);
+    bool _e13 = ltc_is_above(d);
+    bool _e14 = ltc_is_above(e);
+    if (!(((((_e10 || _e11) || _e12) || _e13) || _e14))) {
         return vec3(0.0);
     }
     vec3 a_unit = (a * inversesqrt(max(dot(a, a), LTC_TINY)));
@@ -394,55 +400,56 @@ vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_
     c_end = c_unit;
     d_end = d_unit;
     e_end = e_unit;
-    if (!(((((a_up && b_up) && c_up) && d_up) && e_up))) {
-        bool leave_b = (b_up && !(c_up));
-        bool leave_c = (c_up && !(d_up));
-        bool leave_d = (d_up && !(e_up));
-        bool leave_e = (e_up && !(a_up));
+    if (!(((((_e10 && _e11) && _e12) && _e13) && _e14))) {
+        bool leave_b = (_e11 && !(_e12));
+        bool leave_c = (_e12 && !(_e13));
+        bool leave_d = (_e13 && !(_e14));
+        bool leave_e = (_e14 && !(_e10));
         vec3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
         vec3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
         vec3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
-        bool enter_b = (b_up && !(a_up));
-        bool enter_c = (c_up && !(b_up));
-        bool enter_d = (d_up && !(c_up));
-        bool enter_e = (e_up && !(d_up));
+        bool enter_b = (_e11 && !(_e10));
+        bool enter_c = (_e12 && !(_e11));
+        bool enter_d = (_e13 && !(_e12));
+        bool enter_e = (_e14 && !(_e13));
         vec3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
         vec3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
         vec3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
-        vec3 _e115 = ltc_crossing(leave_from, leave_to, leave_normal);
-        vec3 _e117 = ltc_crossing(enter_to, enter_from, -(enter_normal));
-        vec3 leave = (_e115 * inversesqrt(max(dot(_e115, _e115), LTC_TINY)));
-        vec3 enter = (_e117 * inversesqrt(max(dot(_e117, _e117), LTC_TINY)));
-        a_end = (a_up ? a_unit : (e_up ? leave : enter));
-        b_end = (b_up ? b_unit : (a_up ? leave : enter));
-        c_end = (c_up ? c_unit : (b_up ? leave : enter));
-        d_end = (d_up ? d_unit : (c_up ? leave : enter));
-        e_end = (e_up ? e_unit : (d_up ? leave : enter));
-        a_start = (a_up ? a_unit : enter);
-        b_start = (b_up ? b_unit : enter);
-        c_start = (c_up ? c_unit : enter);
-        d_start = (d_up ? d_unit : enter);
-        e_start = (e_up ? e_unit : enter);
-        vec3 _e145 = ltc_edge(leave, enter, cross(leave, (enter - leave)));
-        horizon = _e145;
+        vec3 _e105 = ltc_crossing(leave_from, leave_to, leave_normal);
+        vec3 _e107 = ltc_crossing(enter_to, enter_from, -(enter_normal));
+        vec3 leave = (_e105 * inversesqrt(max(dot(_e105, _e105), LTC_TINY)));
+        vec3 enter = (_e107 * inversesqrt(max(dot(_e107, _e107), LTC_TINY)));
+        a_end = (_e10 ? a_unit : (_e14 ? leave : enter));
+        b_end = (_e11 ? b_unit : (_e10 ? leave : enter));
+        c_end = (_e12 ? c_unit : (_e11 ? leave : enter));
+        d_end = (_e13 ? d_unit : (_e12 ? leave : enter));
+        e_end = (_e14 ? e_unit : (_e13 ? leave : enter));
+        a_start = (_e10 ? a_unit : enter);
+        b_start = (_e11 ? b_unit : enter);
+        c_start = (_e12 ? c_unit : enter);
+        d_start = (_e13 ? d_unit : enter);
+        e_start = (_e14 ? e_unit : enter);
+        vec3 _e134 = ltc_edge_normal(_e105, _e107, (_e107 - _e105));
+        vec3 _e135 = ltc_edge(leave, enter, _e134);
+        horizon = _e135;
     }
-    vec3 _e146 = a_start;
-    vec3 _e147 = b_end;
-    vec3 _e148 = ltc_edge(_e146, _e147, a_normal);
-    vec3 _e149 = b_start;
-    vec3 _e150 = c_end;
-    vec3 _e151 = ltc_edge(_e149, _e150, b_normal);
-    vec3 _e153 = c_start;
-    vec3 _e154 = d_end;
-    vec3 _e155 = ltc_edge(_e153, _e154, c_normal);
-    vec3 _e157 = d_start;
-    vec3 _e158 = e_end;
-    vec3 _e159 = ltc_edge(_e157, _e158, d_normal);
-    vec3 _e161 = e_start;
-    vec3 _e162 = a_end;
-    vec3 _e163 = ltc_edge(_e161, _e162, e_normal);
-    vec3 _e165 = horizon;
-    return -((((((_e148 + _e151) + _e155) + _e159) + _e163) + _e165));
+    vec3 _e136 = a_start;
+    vec3 _e137 = b_end;
+    vec3 _e138 = ltc_edge(_e136, _e137, a_normal);
+    vec3 _e139 = b_start;
+    vec3 _e140 = c_end;
+    vec3 _e141 = ltc_edge(_e139, _e140, b_normal);
+    vec3 _e143 = c_start;
+    vec3 _e144 = d_end;
+    vec3 _e145 = ltc_edge(_e143, _e144, c_normal);
+    vec3 _e147 = d_start;
+    vec3 _e148 = e_end;
+    vec3 _e149 = ltc_edge(_e147, _e148, d_normal);
+    vec3 _e151 = e_start;
+    vec3 _e152 = a_end;
+    vec3 _e153 = ltc_edge(_e151, _e152, e_normal);
+    vec3 _e155 = horizon;
+    return -((((((_e138 + _e141) + _e145) + _e149) + _e153) + _e155));
 }
 
 // Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
@@ -697,39 +704,40 @@ void ltc_polygon_edge(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe
     vec3 _e25 = ltc_transform(lobe, a_offset);
     vec3 _e26 = ltc_transform(lobe, b_offset);
     vec3 _e27 = ltc_transform_normal(lobe, normal_5);
-    bool a_up = (_e23.z > 0.0);
-    bool b_up = (_e24.z > 0.0);
-    if ((a_up && b_up)) {
-        vec3 _e36 = polygon.lobe_sum;
-        vec3 _e37 = ltc_edge_from(_e22, _e23, _e25, _e24, _e26, _e27);
-        polygon.lobe_sum = (_e36 - _e37);
+    bool _e28 = ltc_is_above(_e23);
+    bool _e29 = ltc_is_above(_e24);
+    if ((_e28 && _e29)) {
+        vec3 _e32 = polygon.lobe_sum;
+        vec3 _e33 = ltc_edge_from(_e22, _e23, _e25, _e24, _e26, _e27);
+        polygon.lobe_sum = (_e32 - _e33);
         return;
     } else {
-        if ((a_up || b_up)) {
-            vec3 above = (a_up ? _e23 : _e24);
-            vec3 below = (a_up ? _e24 : _e23);
-            vec3 above_offset = (a_up ? _e25 : _e26);
-            vec3 below_offset = (a_up ? _e26 : _e25);
-            float t = (above.z / max((above.z - below.z), LTC_TINY));
-            vec3 _e53 = ltc_crossing(above, below, (a_up ? _e27 : -(_e27)));
+        if ((_e28 || _e29)) {
+            vec3 above = (_e28 ? _e23 : _e24);
+            vec3 below = (_e28 ? _e24 : _e23);
+            vec3 above_offset = (_e28 ? _e25 : _e26);
+            vec3 below_offset = (_e28 ? _e26 : _e25);
+            float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
+            vec3 _e51 = ltc_crossing(above, below, (_e28 ? _e27 : -(_e27)));
             vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-            float _e58 = polygon.lobe_crossed;
-            if ((_e58 > 0.0)) {
+            float _e56 = polygon.lobe_crossed;
+            if ((_e56 > 0.0)) {
                 vec3 base = polygon.lobe_crossing;
                 vec3 base_offset = polygon.lobe_crossing_offset;
-                vec3 start = (a_up ? _e53 : base);
-                vec3 end = (a_up ? base : _e53);
-                vec3 _e68 = polygon.lobe_sum;
-                vec3 _e73 = ltc_edge_from(_e22, start, (a_up ? crossing_offset : base_offset), end, (a_up ? base_offset : crossing_offset), cross(start, (end - start)));
-                polygon.lobe_sum = (_e68 - _e73);
+                vec3 start = (_e28 ? _e51 : base);
+                vec3 end = (_e28 ? base : _e51);
+                vec3 _e66 = polygon.lobe_sum;
+                vec3 _e70 = ltc_edge_normal(start, end, (end - start));
+                vec3 _e71 = ltc_edge_from(_e22, start, (_e28 ? crossing_offset : base_offset), end, (_e28 ? base_offset : crossing_offset), _e70);
+                polygon.lobe_sum = (_e66 - _e71);
             } else {
                 polygon.lobe_crossed = 1.0;
-                polygon.lobe_crossing = _e53;
+                polygon.lobe_crossing = _e51;
                 polygon.lobe_crossing_offset = crossing_offset;
             }
-            vec3 _e80 = polygon.lobe_sum;
-            vec3 _e85 = ltc_edge_from(_e22, (a_up ? _e23 : _e53), (a_up ? _e25 : crossing_offset), (a_up ? _e53 : _e24), (a_up ? crossing_offset : _e26), _e27);
-            polygon.lobe_sum = (_e80 - _e85);
+            vec3 _e78 = polygon.lobe_sum;
+            vec3 _e83 = ltc_edge_from(_e22, (_e28 ? _e23 : _e51), (_e28 ? _e25 : crossing_offset), (_e28 ? _e51 : _e24), (_e28 ? crossing_offset : _e26), _e27);
+            polygon.lobe_sum = (_e78 - _e83);
             return;
         } else {
             return;

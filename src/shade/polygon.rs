@@ -1,6 +1,6 @@
 //! Polygons of any number of vertices, convex or not, vertex by vertex.
 
-use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_offset};
+use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above, ltc_offset};
 use super::real::{Real, Vector};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_transform_normal,
@@ -76,7 +76,9 @@ pub fn ltc_polygon_add<R: Real>(
     let near = reach < constant::<R>(0.0625) * reference.dot(reference);
     let [a_height, b_height] =
         [a, b].map(|p| if near { height + normal.dot(p.offset) } else { normal.dot(p.at) });
-    let edges = cut((a, a_height), (b, b_height), &mut polygon.surface_crossing, |above, below, t| Point {
+    let zero: R = constant(0.0);
+    let ends = [(a, a_height, a_height > zero), (b, b_height, b_height > zero)];
+    let edges = cut(ends[0], ends[1], &mut polygon.surface_crossing, |above, below, t| Point {
         at: above.at + (below.at - above.at) * t,
         offset: above.offset + (below.offset - above.offset) * t,
     });
@@ -108,17 +110,17 @@ pub fn ltc_polygon_end<R: Real>(
 /// A directed edge.
 type Edge<R> = (Point<R>, Point<R>);
 
-/// The part of an edge from `a` to `b`, given with their heights, that lies above a plane, and
-/// before it the piece of the plane that closes the cut polygon, from its first crossing to this
-/// one. The flag marks the latter.
+/// An end of an edge with its height over a plane, and whether it counts as above.
+type End<R> = (Point<R>, R, bool);
+
+/// The part of an edge from `a` to `b` that lies above a plane, and before it the piece of the plane that
+/// closes the cut polygon, from its first crossing to this one. The flag marks the latter.
 fn cut<R: Real>(
-    (a, a_height): (Point<R>, R),
-    (b, b_height): (Point<R>, R),
+    (a, a_height, a_up): End<R>,
+    (b, b_height, b_up): End<R>,
     first_crossing: &mut Option<Point<R>>,
     cross: impl Fn(Point<R>, Point<R>, R) -> Point<R>,
 ) -> [Option<(Edge<R>, bool)>; 2] {
-    let zero: R = constant(0.0);
-    let (a_up, b_up) = (a_height > zero, b_height > zero);
     if a_up & b_up {
         return [Some(((a, b), false)), None];
     }
@@ -126,8 +128,8 @@ fn cut<R: Real>(
         return [None, None];
     }
     let (above, below) = if a_up { (a, b) } else { (b, a) };
-    let high = a_height.max(b_height);
-    let t = high / (high - a_height.min(b_height)).max(constant(LTC_TINY));
+    let (high, low) = if a_up { (a_height, b_height) } else { (b_height, a_height) };
+    let t = high.max(constant(0.0)) / (high - low).max(constant(LTC_TINY));
     let crossing = cross(above, below, t);
     let closing = match *first_crossing {
         Some(base) => Some((if a_up { (crossing, base) } else { (base, crossing) }, true)),
@@ -155,14 +157,17 @@ fn ltc_polygon_edge<R: Real>(
     let reference = ltc_transform(lobe, reference);
     let normal = ltc_transform_normal(lobe, normal);
     let (a, b) = (a.transform(lobe), b.transform(lobe));
-    let turned = if a.at.z() > constant(0.0) { normal } else { -normal };
-    let edges = cut((a, a.at.z()), (b, b.at.z()), &mut polygon.lobe_crossing, |above, below, t| Point {
+    let (a_up, b_up) = (ltc_is_above::<R>(a.at), ltc_is_above::<R>(b.at));
+    let turned = if a_up { normal } else { -normal };
+    let ends = [(a, a.at.z(), a_up), (b, b.at.z(), b_up)];
+    let edges = cut(ends[0], ends[1], &mut polygon.lobe_crossing, |above, below, t| Point {
         at: ltc_crossing::<R>(above.at, below.at, turned),
         offset: above.offset + (below.offset - above.offset) * t,
     });
     for (edge, closing) in edges.into_iter().flatten() {
         let (start, end) = edge;
-        let normal = if closing { start.at.cross(end.at - start.at) } else { normal };
+        let horizon = ltc_edge_normal::<R>(start.at, end.at, end.at - start.at);
+        let normal = if closing { horizon } else { normal };
         polygon.lobe_sum = polygon.lobe_sum - ltc_edge_from(reference, edge, normal);
     }
 }

@@ -75,11 +75,16 @@ pub fn ltc_offset<R: Real>(
     }
 }
 
+/// Whether `v` lies above the lobe's horizon, or on it but for rounding.
+pub fn ltc_is_above<R: Real>(v: R::Vec3) -> bool {
+    (v.z() > constant(0.0)) | (v.z() * v.z() < constant::<R>(1e-12) * v.dot(v))
+}
+
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where it
 /// passes the surface point closely. `normal` has the direction of above × below.
 pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) -> R::Vec3 {
     let zero: R = constant(0.0);
-    let t = above.z() / (above.z() - below.z()).max(constant(LTC_TINY));
+    let t = above.z().max(zero) / (above.z() - below.z()).max(constant(LTC_TINY));
     let between =
         R::Vec3::new(above.x() + (below.x() - above.x()) * t, above.y() + (below.y() - above.y()) * t, zero);
     let turned = R::Vec3::new(normal.y(), -normal.x(), zero);
@@ -92,7 +97,7 @@ pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) ->
 /// horizon. Each normal has the direction of the cross product of its vertex and the next one.
 pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::Vec3 {
     let zero: R = constant(0.0);
-    let up = vertices.map(|v| v.z() > zero);
+    let up = vertices.map(ltc_is_above::<R>);
     if up == [false; 5] {
         return R::Vec3::new(zero, zero, zero);
     }
@@ -113,16 +118,18 @@ pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R
             }
         }
         let (from, to) = (vertices[leaving], vertices[next(leaving)]);
-        let leave = unit::<R>(ltc_crossing::<R>(from, to, normals[leaving]));
+        let leave = ltc_crossing::<R>(from, to, normals[leaving]);
         let (from, to) = (vertices[entering], vertices[next(entering)]);
-        let enter = unit::<R>(ltc_crossing::<R>(to, from, -normals[entering]));
+        let enter = ltc_crossing::<R>(to, from, -normals[entering]);
+        let horizon_normal = ltc_edge_normal::<R>(leave, enter, enter - leave);
+        let (leave, enter) = (unit::<R>(leave), unit::<R>(enter));
         ends = core::array::from_fn(|i| match (up[i], up[(i + 4) % 5]) {
             (true, _) => units[i],
             (false, true) => leave,
             (false, false) => enter,
         });
         starts = core::array::from_fn(|i| if up[i] { units[i] } else { enter });
-        horizon = ltc_edge::<R>(leave, enter, leave.cross(enter - leave));
+        horizon = ltc_edge::<R>(leave, enter, horizon_normal);
     }
     let edge = |i: usize| ltc_edge::<R>(starts[i], ends[(i + 1) % 5], normals[i]);
     -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4) + horizon)
