@@ -56,6 +56,50 @@ fn public_names_are_kept() {
     }
 }
 
+/// The members of the include's types.
+fn member_names() -> Vec<&'static str> {
+    let mut inside = false;
+    softbox::WGSL_INCLUDE
+        .lines()
+        .filter_map(|line| {
+            inside = line.starts_with("struct ") || (inside && !line.starts_with('}'));
+            let (name, _) = line.trim().split_once(':')?;
+            (inside && line.starts_with("    ") && !name.starts_with("//")).then_some(name)
+        })
+        .collect()
+}
+
+#[test]
+fn members_keep_their_names_and_comments() {
+    let names = member_names();
+    assert!(names.contains(&"entries") && names.contains(&"cos_view"), "{names:?}");
+    for target in Target::ALL {
+        let text = include(target);
+        let lines: Vec<&str> = text.lines().collect();
+        for name in &names {
+            let declaration = format!(" {name};");
+            let at = lines
+                .iter()
+                .position(|line| line.starts_with("    ") && line.ends_with(&declaration))
+                .unwrap_or_else(|| panic!("{target:?} does not declare the member {name}"));
+            assert!(lines[at - 1].trim().starts_with("//"), "{target:?}: {name} has no comment");
+        }
+    }
+}
+
+/// Where two targets differ in nothing that matters, running one runs the other.
+#[test]
+fn the_older_versions_of_glsl_say_what_the_newer_ones_say() {
+    let code = |target: Target| {
+        let text = include(target);
+        let lines: Vec<&str> = text.lines().filter(|line| !line.trim().starts_with("//")).collect();
+        lines.join("\n").replace("highp ", "")
+    };
+    assert_eq!(code(Target::Glsl330), code(Target::Glsl450));
+    assert_eq!(code(Target::GlslEs300), code(Target::GlslEs310));
+    assert_eq!(code(Target::GlslEs300), code(Target::Glsl450));
+}
+
 /// A line at the start of which something is declared, without its comment.
 fn declarations(text: &str) -> impl Iterator<Item = &str> {
     text.lines().filter(|line| {

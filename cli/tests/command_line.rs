@@ -145,11 +145,28 @@ fn build_writes_a_package_and_replaces_it_whole() {
     for file in ["hlsl/Ltc.ush", "msl/ltc.metal", "spirv/ltc_evaluate.spv", "README.md", "LICENSE-MIT"] {
         assert!(out.join(file).is_file(), "{file} is missing");
     }
-    // A file of the older package does not outlive it.
-    std::fs::write(out.join("stale"), "").expect("a file");
+    // A package replaces an older one, whatever that held; but nothing that a user put into it.
     assert!(softbox(&["build", "--table-size", "4", "--out", path], "").status.success());
-    assert!(!out.join("stale").exists());
+    assert_eq!(std::fs::read(out.join("table/ltc.bin")).expect("the table").len(), 16 * 4 * 4);
     assert_eq!(entries(out.parent().expect("a parent")), ["package"], "nothing is left beside the package");
+    std::fs::write(out.join("glsl/mine.glsl"), "kept").expect("a file");
+    assert_refused(&softbox(&["build", "--table-size", "8", "--out", path], ""), &["glsl/mine.glsl"]);
+    assert!(out.join("glsl/mine.glsl").is_file());
+    assert_eq!(std::fs::read(out.join("table/ltc.bin")).expect("the table").len(), 16 * 4 * 4);
+    assert_eq!(entries(out.parent().expect("a parent")), ["package"]);
+}
+
+#[test]
+fn build_takes_no_repository_for_a_package() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for file in ["wgsl/ltc.wgsl", ".git/config"] {
+        let path = folder.path().join(file);
+        std::fs::create_dir_all(path.parent().expect("a parent")).expect("a folder");
+        std::fs::write(path, "kept").expect("a file");
+    }
+    let path = folder.path().to_str().expect("a path");
+    assert_refused(&softbox(&["build", "--table-size", "4", "--out", path], ""), &["no part of a package"]);
+    assert!(folder.path().join(".git/config").is_file() && folder.path().join("wgsl/ltc.wgsl").is_file());
 }
 
 fn entries(folder: &Path) -> Vec<String> {
@@ -165,7 +182,7 @@ fn build_touches_no_folder_that_holds_something_else() {
     std::fs::write(folder.path().join("precious"), "kept").expect("a file");
     let path = folder.path().to_str().expect("a path");
     let output = softbox(&["build", "--table-size", "4", "--out", path], "");
-    assert_refused(&output, &[path, "not empty"]);
+    assert_refused(&output, &[path, "precious"]);
     assert_eq!(entries(folder.path()), ["precious"]);
     let under_a_file = folder.path().join("precious/package");
     let output =

@@ -10,6 +10,9 @@ use crate::report::{self, Accuracy, REGIONS, Technique};
 use crate::table::{Container, ContainerError, Table};
 use crate::translate::{self, Target, TranslateError};
 
+/// The file of a package that names all its files, itself included, a line each.
+pub const MANIFEST: &str = "MANIFEST";
+
 /// What to put into a package.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
@@ -127,7 +130,14 @@ pub fn build(
     text("LICENSE-APACHE", include_str!("../../LICENSE-APACHE").to_owned());
     package.files.push((translate::SPIRV_PATH.to_owned(), translate::spirv()?));
     package.files.push(("README.md".to_owned(), guide::guide(contents, &package).into_bytes()));
+    package.files.push((MANIFEST.to_owned(), Vec::new()));
     package.files.sort();
+    let names: String = package.files.iter().map(|(path, _)| format!("{path}\n")).collect();
+    for (path, bytes) in &mut package.files {
+        if path == MANIFEST {
+            *bytes = names.clone().into_bytes();
+        }
+    }
     Ok(package)
 }
 
