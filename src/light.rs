@@ -2,6 +2,10 @@
 
 use glam::DVec3;
 
+use crate::shade::{
+    LtcLobe, LtcSurface, Real, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad,
+};
+
 /// Share of the longest side's square below which a corner counts as straight: an order above what rounding a
 /// rectangle's vertices to f32 can bend it by.
 const STRAIGHT: f64 = 1e-6;
@@ -46,4 +50,27 @@ pub fn is_convex_quad(points: &[DVec3]) -> bool {
         let back = straight && before.dot(*after) < 0.0 && present.len() > 2;
         (straight || turn_forward > 0.0) && !back
     })
+}
+
+/// The value (diffuse, specular, fresnel) of a polygon light, by `ltc_quad` for a `convex_quad` and by the
+/// polygon functions for any other.
+///
+/// # Panics
+///
+/// If there is no point, or `convex_quad` is set and there are not four.
+pub fn ltc_light<R: Real>(
+    surface: &LtcSurface<R>,
+    lobe: &LtcLobe<R>,
+    points: &[R::Vec3],
+    convex_quad: bool,
+    two_sided: bool,
+) -> R::Vec3 {
+    if convex_quad {
+        return ltc_quad(surface, lobe, [points[0], points[1], points[2], points[3]], two_sided);
+    }
+    let mut polygon = ltc_polygon_begin(surface, points[0]);
+    for point in &points[1..] {
+        ltc_polygon_add(&mut polygon, surface, lobe, *point);
+    }
+    ltc_polygon_end(&mut polygon, surface, lobe, two_sided)
 }

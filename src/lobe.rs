@@ -70,21 +70,4 @@ impl Lobe {
     pub fn determinant(&self) -> f64 {
         self.x * self.w - self.y * self.z
     }
-
-    /// The lobe's density in 1/sr at a unit `direction`; its integral over the sphere is 1 (Heitz
-    /// et al. 2016, equation 4, in terms of M⁻¹).
-    pub fn density(&self, direction: DVec3) -> f64 {
-        let q = self.transform(direction);
-        let n = q.length_squared();
-        self.determinant() * q.z.max(0.0) / (core::f64::consts::PI * n * n)
-    }
-
-    /// The share of the lobe's energy that lies above the surface.
-    ///
-    /// In the lobe's space the surface's upper half-space has the normal (−y, 0, x), the transpose
-    /// of M applied to +z. The cosine hemisphere cut by it projects to half a disk and half an
-    /// ellipse, (1 + cos γ) / 2 of the whole, where γ is the angle between that normal and +z.
-    pub fn share_above(&self) -> f64 {
-        0.5 + 0.5 * self.x / self.x.hypot(self.y)
-    }
 }

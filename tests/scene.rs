@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use softbox::device::Device;
-use softbox::light::is_convex_quad;
+use softbox::light::{is_convex_quad, ltc_light};
 use softbox::scene::{Comparison, Hit, Panel, Scene, render_truth, write_png};
-use softbox::shade::{ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad, ltc_surface};
+use softbox::shade::ltc_surface;
 use softbox::table::Table;
 
 fn shipped(name: &str) -> Scene {
@@ -206,17 +206,8 @@ fn exact(scene: &Scene, table: &Table, column: u32, row: u32, [width, height]: [
     let lobe = table.lobe(&surface);
     let mut sum = DVec3::ZERO;
     for light in &scene.lights {
-        let value = if let Ok(points) = <[DVec3; 4]>::try_from(&light.points[..])
-            && is_convex_quad(&points)
-        {
-            ltc_quad(&surface, &lobe, points, light.two_sided)
-        } else {
-            let mut polygon = ltc_polygon_begin(&surface, light.points[0]);
-            for &point in &light.points[1..] {
-                ltc_polygon_add(&mut polygon, &surface, &lobe, point);
-            }
-            ltc_polygon_end(&mut polygon, &surface, &lobe, light.two_sided)
-        };
+        let quad = is_convex_quad(&light.points);
+        let value = ltc_light(&surface, &lobe, &light.points, quad, light.two_sided);
         sum += light.radiance
             * (material.base_colour * value.x + material.f0 * (value.y - value.z) + material.f90 * value.z);
     }

@@ -53,7 +53,7 @@ pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
     let extension = arguments.out.extension().unwrap_or_default().to_string_lossy();
     let container = Container::ALL
         .into_iter()
-        .find(|container| container.extension() == extension)
+        .find(|container| extension.eq_ignore_ascii_case(container.extension()))
         .with_context(|| {
             format!(
                 "{} has no extension that names a table format; use .bin, .dds, .ktx2, .rs or .h",

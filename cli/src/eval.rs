@@ -1,7 +1,7 @@
 //! `softbox eval`.
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader, BufWriter, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::PathBuf;
 
 use anyhow::Context;
@@ -12,11 +12,8 @@ use serde::Deserialize;
 use serde_json::Value;
 use softbox::brdf::Ggx;
 use softbox::device::{Batch, Device, EvaluateLight, EvaluateSurface, Program};
-use softbox::light::is_convex_quad;
-use softbox::shade::{
-    LTC_ROUGHNESS_FLOOR, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad,
-    ltc_surface,
-};
+use softbox::light::{is_convex_quad, ltc_light};
+use softbox::shade::{LTC_ROUGHNESS_FLOOR, Real, Vector, ltc_surface};
 use softbox::table::Table;
 use softbox::truth;
 
@@ -92,14 +89,18 @@ fn chunk(on: On) -> usize {
     if on == On::Gpu { 65_536 } else { 4096 }
 }
 
+/// Vertices that are evaluated together, so that they fit the storage buffers of every device.
+const MOST_VERTICES: usize = 1 << 20;
+
 pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
-    let input: Box<dyn BufRead> = match &arguments.file {
+    let (name, input): (String, Box<dyn Read>) = match &arguments.file {
         Some(path) => {
             let file = File::open(path).with_context(|| format!("cannot read {}", path.display()))?;
-            Box::new(BufReader::new(file))
+            (path.display().to_string(), Box::new(file))
         }
-        None => Box::new(BufReader::new(io::stdin())),
+        None => ("standard input".to_owned(), Box::new(io::stdin())),
     };
+    let mut input = BufReader::with_capacity(1 << 16, input);
     let table = Table::default();
     let device = match arguments.on {
         On::Gpu => Some(Device::open(wgpu::Backends::VULKAN)?),
@@ -136,21 +137,31 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
         Ok(())
     };
     let single = matches!(arguments.on, On::Cpu | On::Gpu);
-    for (index, line) in input.split(b'\n').enumerate() {
-        let number = index + 1;
-        let line = line.with_context(|| format!("cannot read line {number}"))?;
-        if line.iter().all(u8::is_ascii_whitespace) {
-            continue;
-        }
-        match parse(&line, single) {
-            Ok(case) => cases.push(case),
+    let mut line = Vec::new();
+    let mut vertices = 0;
+    for number in 1.. {
+        line.clear();
+        let parsed = match input.read_until(b'\n', &mut line) {
+            Ok(0) => break,
+            Ok(_) if line.iter().all(u8::is_ascii_whitespace) => continue,
+            Ok(_) => parse(&line, single).with_context(|| format!("line {number}")),
+            Err(error) => Err(error).with_context(|| format!("cannot read {name} at line {number}")),
+        };
+        match parsed {
+            Ok(case) => {
+                vertices += case.points.len();
+                cases.push(case);
+            }
             Err(error) => {
                 flush(&mut cases)?;
-                return Err(error.context(format!("line {number}")));
+                return Err(error);
             }
         }
-        if cases.len() == chunk(arguments.on) {
+        // Whoever types cases or sends them one by one gets the answers so; a device answers in batches.
+        let waiting = input.buffer().is_empty() && arguments.on != On::Gpu;
+        if waiting || cases.len() >= chunk(arguments.on) || vertices >= MOST_VERTICES {
             flush(&mut cases)?;
+            vertices = 0;
         }
     }
     flush(&mut cases)
@@ -158,13 +169,23 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
 
 fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
     let text = std::str::from_utf8(line).map_err(|_| anyhow::anyhow!("the line is not UTF-8 text"))?;
+    let text = text.trim_start_matches('\u{feff}').trim_end();
     let value: Value = serde_json::from_str(text).map_err(|error| {
-        if error.to_string().contains("out of range") || text.contains("NaN") || text.contains("Infinity") {
+        let rest = text.get(error.column().saturating_sub(1)..).unwrap_or_default();
+        let rest = rest.trim_start_matches('-');
+        if error.to_string().contains("out of range") || rest.starts_with("NaN") || rest.starts_with("Inf") {
             anyhow::anyhow!("a number is not finite")
         } else {
-            anyhow::anyhow!("the line is not JSON: {error}")
+            let reason = error.to_string();
+            let reason = reason.split(" at line ").next().unwrap_or_default();
+            anyhow::anyhow!("the line is not JSON: {reason} at column {}", error.column())
         }
     })?;
+    for (name, part) in
+        [("a case", Some(&value)), ("surface", value.get("surface")), ("light", value.get("light"))]
+    {
+        anyhow::ensure!(part.is_none_or(Value::is_object), "not a case: {name} must be an object in braces");
+    }
     let RawCase { surface, light } =
         RawCase::deserialize(&value).map_err(|error| anyhow::anyhow!("not a case: {error}"))?;
     match light.get("shape") {
@@ -212,16 +233,8 @@ fn by_twin<R: Real>(table: &Table, case: &Case) -> [f64; 3] {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), R::new(case.roughness));
     let lobe = table.lobe(&surface);
-    let value = if is_convex_quad(&case.points) {
-        let corners = core::array::from_fn(|i| v(case.points[i]));
-        ltc_quad(&surface, &lobe, corners, case.two_sided)
-    } else {
-        let mut polygon = ltc_polygon_begin(&surface, v(case.points[0]));
-        for point in &case.points[1..] {
-            ltc_polygon_add(&mut polygon, &surface, &lobe, v(*point));
-        }
-        ltc_polygon_end(&mut polygon, &surface, &lobe, case.two_sided)
-    };
+    let points: Vec<R::Vec3> = case.points.iter().map(|point| v(*point)).collect();
+    let value = ltc_light(&surface, &lobe, &points, is_convex_quad(&case.points), case.two_sided);
     [value.x(), value.y(), value.z()].map(Real::to_f64)
 }
 
@@ -261,7 +274,7 @@ fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<V
         let light = batch.add_light(&points, flags);
         batch.pairs.push([index as u32, light]);
     }
-    let program = Program::Wgsl(format!("{}\n{}", softbox::WGSL_INCLUDE, softbox::WGSL_EVALUATE));
+    let program = Program::wgsl(format!("{}\n{}", softbox::WGSL_INCLUDE, softbox::WGSL_EVALUATE));
     let values = device.evaluate(&program, table, &batch)?;
     Ok(values.into_iter().map(|value| value.map(f64::from)).collect())
 }

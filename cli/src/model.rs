@@ -10,9 +10,10 @@ pub struct ModelArguments {
     model: ModelName,
     /// For ggx-schlick: the constant k of G1 = (n.w) / ((n.w)(1 - k) + k), as a multiple of alpha, or of
     /// (roughness + 1)^2 with --k-of-roughness.
-    #[arg(long, default_value_t = 0.5, value_name = "FACTOR")]
-    k: f64,
-    /// For ggx-schlick: take k as a multiple of (roughness + 1)^2 instead of alpha; 0.125 is usual.
+    /// [default: 0.5, or 0.125 with --k-of-roughness]
+    #[arg(long, value_name = "FACTOR")]
+    k: Option<f64>,
+    /// For ggx-schlick: take k as a multiple of (roughness + 1)^2 instead of alpha.
     #[arg(long)]
     k_of_roughness: bool,
 }
@@ -33,6 +34,11 @@ impl ModelArguments {
     /// The model at every roughness, or why there is none.
     pub fn family(&self) -> anyhow::Result<impl Fn(f64) -> Box<dyn Brdf> + Sync + use<>> {
         let Self { model, k, k_of_roughness } = *self;
+        anyhow::ensure!(
+            model == ModelName::GgxSchlick || (k.is_none() && !k_of_roughness),
+            "--k and --k-of-roughness say nothing to this model; they are for --model ggx-schlick"
+        );
+        let k = k.unwrap_or(if k_of_roughness { 0.125 } else { 0.5 });
         anyhow::ensure!(
             k.is_finite() && (0.0..=1.0).contains(&k),
             "--k is {k}, but a factor must be a number from 0 to 1"

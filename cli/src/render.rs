@@ -82,7 +82,7 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
         }
         if arguments.difference {
             println!(
-                "difference panel: red is too bright, blue too dark, full colour at {} % of the mean, grey where there is no surface",
+                "difference panel: yellow is too bright, blue too dark, full colour at {} % of the mean, grey where there is no surface",
                 100.0 * DIFFERENCE_SCALE
             );
             let mut panel = image.difference(&truth, &comparison, DIFFERENCE_SCALE);

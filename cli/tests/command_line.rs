@@ -81,7 +81,14 @@ fn eval_keeps_what_came_before_a_bad_line_and_says_what_is_wrong() {
     };
     let bad = [
         ("{".to_owned(), "not JSON"),
-        ("[]".to_owned(), "not a case"),
+        ("[]".to_owned(), "must be an object"),
+        (
+            with(
+                r#"{"position":[0,0,0],"normal":[0,0,2],"view":[0.6,0,0.8],"roughness":0.5,"name":"x"}"#,
+                "[1]",
+            ),
+            "surface must be",
+        ),
         (with(r#""roughness":0.5,"#, ""), "missing field `roughness`"),
         (with(r#""view":[0.6,0,0.8],"#, ""), "missing field `view`"),
         (with("[0,0,2]", "[0,0,0]"), "normal is zero"),
@@ -212,7 +219,14 @@ fn bake_writes_every_format_and_refuses_the_rest() {
         );
     }
     assert_refused(&softbox(&["bake", "--size", "1", "--out", &at("s.bin")], ""), &["table size is 1"]);
-    assert_refused(&softbox(&["bake", "--size", "4", "--k", "7", "--out", &at("s.bin")], ""), &["--k is 7"]);
+    assert_refused(
+        &softbox(&["bake", "--size", "4", "--model", "ggx-schlick", "--k", "7", "--out", &at("s.bin")], ""),
+        &["--k is 7"],
+    );
+    assert_refused(
+        &softbox(&["bake", "--size", "4", "--k", "0.5", "--out", &at("s.bin")], ""),
+        &["ggx-schlick"],
+    );
     assert_refused(&softbox(&["bake", "--size", "4", "--out", &at("none/s.bin")], ""), &["none/s.bin"]);
     assert!(!entries(folder.path()).iter().any(|name| name.contains("tmp")));
 }

@@ -107,7 +107,7 @@ fn single(v: DVec3) -> [f32; 3] {
 impl RenderObject {
     fn new(object: &Object) -> Self {
         let (kind, centre, axes, extent) = match object.shape {
-            // The largest f32 stands for no end, because a shader may assume that there is no infinity.
+            // A length beyond every scene stands for no end: a shader may assume that there is no infinity.
             Shape::Plane { point, axes, extent } => {
                 (0, point, axes, [extent[0].min(1e30), extent[1].min(1e30), 0.0])
             }

@@ -30,13 +30,38 @@ pub enum DeviceError {
 
 /// A shader in one of the forms that a device takes.
 #[derive(Clone, Debug)]
-pub enum Program {
-    /// WGSL text; wgpu adds its own checks of indices and loops.
+pub struct Program(Source);
+
+#[derive(Clone, Debug)]
+enum Source {
     Wgsl(String),
-    /// SPIR-V bytes with the entry point of the given name, handed to Vulkan as they are.
     SpirV(Vec<u8>, &'static str),
-    /// GLSL text with the entry point `main`, handed to OpenGL as it is.
     Glsl(String),
+}
+
+impl Program {
+    /// WGSL text; wgpu adds its own checks of indices and loops.
+    pub fn wgsl(text: String) -> Self {
+        Self(Source::Wgsl(text))
+    }
+
+    /// SPIR-V bytes with an entry point of the given name, handed to Vulkan as they are.
+    ///
+    /// # Safety
+    ///
+    /// The module must be valid, index nothing beyond the buffers that it will be given, and end.
+    pub unsafe fn spirv(bytes: Vec<u8>, entry_point: &'static str) -> Self {
+        Self(Source::SpirV(bytes, entry_point))
+    }
+
+    /// GLSL text with the entry point `main`, handed to OpenGL as it is.
+    ///
+    /// # Safety
+    ///
+    /// As for [`Program::spirv`].
+    pub unsafe fn glsl(text: String) -> Self {
+        Self(Source::Glsl(text))
+    }
 }
 
 /// An open device.
@@ -111,23 +136,22 @@ impl Device {
                 glsl: glsl.map(Cow::Owned),
                 ..Default::default()
             };
-            // SAFETY: the modules come from the include and its kernels, which index nothing beyond
-            // the bound buffers and have loops that end.
+            // SAFETY: whoever made the program answers for it, see `Program::spirv`.
             unsafe { self.device.create_shader_module_passthrough(descriptor) }
         };
-        match program {
-            Program::Wgsl(text) => self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        match &program.0 {
+            Source::Wgsl(text) => self.device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: None,
                 source: wgpu::ShaderSource::Wgsl(text.into()),
             }),
-            Program::SpirV(bytes, entry_point) => {
+            Source::SpirV(bytes, entry_point) => {
                 let words = bytes
                     .chunks_exact(4)
                     .map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]]))
                     .collect();
                 passthrough(entry_point, Some(words), None)
             }
-            Program::Glsl(text) => passthrough("main", None, Some(text.clone())),
+            Source::Glsl(text) => passthrough("main", None, Some(text.clone())),
         }
     }
 
@@ -145,7 +169,11 @@ impl Device {
         groups: [u32; 2],
         output: &wgpu::Buffer,
     ) -> Result<Vec<u8>, DeviceError> {
-        let failed = |reason: String| DeviceError::Failed { adapter: self.info.name.clone(), reason };
+        let failed = |reason: String| {
+            // wgpu's reasons run over several lines.
+            let reason = reason.split_whitespace().collect::<Vec<_>>().join(" ");
+            DeviceError::Failed { adapter: self.info.name.clone(), reason }
+        };
         let scope = self.device.push_error_scope(wgpu::ErrorFilter::Validation);
         let module = self.module(program, (64, 1, 1));
         let last_buffer =
@@ -183,10 +211,10 @@ impl Device {
             bind_group_layouts: &[Some(&layout)],
             immediate_size: 0,
         });
-        let entry_point = match program {
-            Program::Glsl(_) => "main",
-            Program::SpirV(_, name) => name,
-            Program::Wgsl(_) => entry_point,
+        let entry_point = match &program.0 {
+            Source::Glsl(_) => "main",
+            Source::SpirV(_, name) => name,
+            Source::Wgsl(_) => entry_point,
         };
         let pipeline = self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: None,

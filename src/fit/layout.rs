@@ -1,5 +1,8 @@
 //! What a table's texels hold and where they lie.
 
+use crate::lobe::Lobe;
+use crate::shade::LTC_ROUGHNESS_FLOOR;
+
 /// The meaning of a table's axes and of the four numbers that describe a lobe.
 ///
 /// Both layouts place roughness along the first axis, from 0 at the first texel's centre to 1 at
@@ -22,9 +25,6 @@ pub enum Layout {
     Compatible,
 }
 
-/// The smallest roughness that tells lobes apart; below it both layouts hold the same lobe.
-pub const ROUGHNESS_FLOOR: f64 = 0.02;
-
 /// The largest and the smallest cosine at which lobes are fitted; the layouts' formulas lose
 /// their meaning where sin θ or cos θ is 0.
 const COSINES: (f64, f64) = (1e-4, 1.0 - 1e-7);
@@ -41,7 +41,7 @@ impl Layout {
 
     /// α at a coordinate of the first axis.
     pub fn alpha(self, coordinate: f64) -> f64 {
-        coordinate.max(ROUGHNESS_FLOOR).powi(2)
+        coordinate.max(LTC_ROUGHNESS_FLOOR).powi(2)
     }
 
     /// Each entry of the lobe is `offset + scale·parameter`.
@@ -49,7 +49,8 @@ impl Layout {
         let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
         match self {
             Self::Native => {
-                ([cosine * cosine, 0.0, sine * cosine, 0.0], [alpha, alpha * sine, alpha * sine, alpha])
+                let limit = Lobe::mirror_limit(alpha, cosine);
+                ([limit.x, 0.0, limit.z, 0.0], [alpha, alpha * sine, alpha * sine, alpha])
             }
             Self::Compatible => ([0.0; 4], [1.0; 4]),
         }

@@ -10,7 +10,7 @@ mod single;
 mod whole;
 
 pub use angle::fit_angle_excess;
-pub use layout::{Layout, ROUGHNESS_FLOOR};
+pub use layout::Layout;
 pub use single::Horizon;
 
 use rayon::prelude::*;

@@ -3,8 +3,8 @@
 use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above, ltc_offset};
 use super::real::{Real, Vector};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_transform_normal,
-    ltc_value, unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal, ltc_value,
+    unit,
 };
 
 /// State of a polygon that is given vertex by vertex.
@@ -36,12 +36,12 @@ impl<R: Real> Point<R> {
 
 /// Starts a polygon at its first vertex.
 pub fn ltc_polygon_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> LtcPolygon<R> {
-    let zero: R = constant(0.0);
-    let headroom: R = constant(LTC_HEADROOM);
+    let zero: R = R::new(0.0);
+    let headroom: R = R::new(LTC_HEADROOM);
     let to_first = corner * headroom - surface.position * headroom;
     LtcPolygon {
         first: corner,
-        scale: constant::<R>(1.0) / ltc_extent::<R>(to_first).max(constant(LTC_TINY)),
+        scale: R::new(1.0) / ltc_extent::<R>(to_first).max(R::new(LTC_TINY)),
         previous: corner,
         facing: zero,
         diffuse: zero,
@@ -58,12 +58,12 @@ pub fn ltc_polygon_add<R: Real>(
     lobe: &LtcLobe<R>,
     corner: R::Vec3,
 ) {
-    let headroom: R = constant(LTC_HEADROOM);
+    let headroom: R = R::new(LTC_HEADROOM);
     let origin = surface.position * headroom;
     let first = polygon.first * headroom;
     let (a, b) = (polygon.previous * headroom, corner * headroom);
     let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
-    let scale = polygon.scale.min(constant::<R>(1e12) / extent.max(constant(1e-25)));
+    let scale = polygon.scale.min(R::new(1e12) / extent.max(R::new(1e-25)));
     let place = |v: R::Vec3| Point::<R> { at: (v - origin) * scale, offset: (v - first) * scale };
     let reference = place(first).at;
     let (a, b) = (place(a), place(b));
@@ -73,10 +73,10 @@ pub fn ltc_polygon_add<R: Real>(
     let normal = surface.normal;
     let height = normal.dot(reference);
     let reach = a.offset.dot(a.offset).max(b.offset.dot(b.offset));
-    let near = reach < constant::<R>(0.0625) * reference.dot(reference);
+    let near = reach < R::new(0.0625) * reference.dot(reference);
     let [a_height, b_height] =
         [a, b].map(|p| if near { height + normal.dot(p.offset) } else { normal.dot(p.at) });
-    let zero: R = constant(0.0);
+    let zero: R = R::new(0.0);
     let ends = [(a, a_height, a_height > zero), (b, b_height, b_height > zero)];
     let edges = cut(ends[0], ends[1], &mut polygon.surface_crossing, |above, below, t| Point {
         at: above.at + (below.at - above.at) * t,
@@ -96,13 +96,13 @@ pub fn ltc_polygon_end<R: Real>(
 ) -> R::Vec3 {
     let first = polygon.first;
     ltc_polygon_add(polygon, surface, lobe, first);
-    let over_two_pi: R = constant(OVER_TWO_PI);
+    let over_two_pi: R = R::new(OVER_TWO_PI);
     ltc_value(
         surface,
         lobe,
         polygon.diffuse * over_two_pi,
         polygon.lobe_sum * over_two_pi,
-        polygon.facing < constant(0.0),
+        polygon.facing < R::new(0.0),
         two_sided,
     )
 }
@@ -129,7 +129,7 @@ fn cut<R: Real>(
     }
     let (above, below) = if a_up { (a, b) } else { (b, a) };
     let (high, low) = if a_up { (a_height, b_height) } else { (b_height, a_height) };
-    let t = high.max(constant(0.0)) / (high - low).max(constant(LTC_TINY));
+    let t = high.max(R::new(0.0)) / (high - low).max(R::new(LTC_TINY));
     let crossing = cross(above, below, t);
     let closing = match *first_crossing {
         Some(base) => Some((if a_up { (crossing, base) } else { (base, crossing) }, true)),

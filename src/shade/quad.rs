@@ -2,8 +2,8 @@
 
 use super::real::{Real, Vector};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, constant, ltc_extent, ltc_transform, ltc_transform_normal,
-    ltc_value, unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal, ltc_value,
+    unit,
 };
 
 pub(super) const OVER_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
@@ -25,11 +25,11 @@ pub fn ltc_edge<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3) -> R::Vec3 {
     let chord = b - a;
     let cross_product = a.cross(chord);
     let squared = cross_product.dot(cross_product);
-    let sine = squared * squared.max(constant(1e-30)).inverse_sqrt();
-    let k = constant::<R>(0.5) * chord.dot(chord);
+    let sine = squared * squared.max(R::new(1e-30)).inverse_sqrt();
+    let k = R::new(0.5) * chord.dot(chord);
     let acute = sine + sine * ltc_angle_excess(k.min((two - k).max(zero)));
-    let angle = if k > one { constant::<R>(core::f64::consts::PI) - acute } else { acute };
-    normal * (angle * normal.dot(normal).max(constant(LTC_TINY)).inverse_sqrt())
+    let angle = if k > one { R::new(core::f64::consts::PI) - acute } else { acute };
+    normal * (angle * normal.dot(normal).max(R::new(LTC_TINY)).inverse_sqrt())
 }
 
 /// The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
@@ -42,14 +42,14 @@ pub fn ltc_edge_about<R: Real>(
     b_offset: R::Vec3,
     normal: R::Vec3,
 ) -> R::Vec3 {
-    let half: R = constant(0.5);
+    let half: R = R::new(0.5);
     let (a_squared, b_squared) = (a_offset.dot(a_offset), b_offset.dot(b_offset));
     let along = reference.dot(a_offset.cross(b_offset));
     let across = (a_offset * b_squared - b_offset * a_squared) * half;
     let common_part = reference * along + reference.cross(across);
-    let part = if a_squared.max(b_squared) < constant(0.0625) {
+    let part = if a_squared.max(b_squared) < R::new(0.0625) {
         let chord = b_offset - a_offset;
-        a.cross(chord) * ltc_angle_excess((half * chord.dot(chord)).min(constant(1.0)))
+        a.cross(chord) * ltc_angle_excess((half * chord.dot(chord)).min(R::new(1.0)))
     } else {
         ltc_edge::<R>(a, b, normal) - a.cross(b - a)
     };
@@ -65,10 +65,10 @@ pub fn ltc_offset<R: Real>(
     offset: R::Vec3,
 ) -> R::Vec3 {
     let square = target_point.dot(target_point);
-    let inverse_length = square.max(constant(LTC_TINY)).inverse_sqrt();
+    let inverse_length = square.max(R::new(LTC_TINY)).inverse_sqrt();
     let length_sum = square * inverse_length + origin.dot(reference);
-    let length_difference = offset.dot(origin + target_point) / length_sum.max(constant(LTC_TINY));
-    if offset.dot(offset) < constant::<R>(0.0625) * origin.dot(origin) {
+    let length_difference = offset.dot(origin + target_point) / length_sum.max(R::new(LTC_TINY));
+    if offset.dot(offset) < R::new(0.0625) * origin.dot(origin) {
         (offset - reference * length_difference) * inverse_length
     } else {
         target_point * inverse_length - reference
@@ -77,26 +77,26 @@ pub fn ltc_offset<R: Real>(
 
 /// Whether `v` lies above the lobe's horizon, or on it but for rounding.
 pub fn ltc_is_above<R: Real>(v: R::Vec3) -> bool {
-    (v.z() > constant(0.0)) | (v.z() * v.z() < constant::<R>(1e-12) * v.dot(v))
+    (v.z() > R::new(0.0)) | (v.z() * v.z() < R::new(1e-12) * v.dot(v))
 }
 
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where it
 /// passes the surface point closely. `normal` has the direction of above × below.
 pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) -> R::Vec3 {
-    let zero: R = constant(0.0);
-    let t = above.z().max(zero) / (above.z() - below.z()).max(constant(LTC_TINY));
+    let zero: R = R::new(0.0);
+    let t = above.z().max(zero) / (above.z() - below.z()).max(R::new(LTC_TINY));
     let between =
         R::Vec3::new(above.x() + (below.x() - above.x()) * t, above.y() + (below.y() - above.y()) * t, zero);
     let turned = R::Vec3::new(normal.y(), -normal.x(), zero);
-    let cancels = between.dot(between) < constant::<R>(1e-6) * above.dot(above).max(below.dot(below));
-    let tilted = turned.dot(turned) > constant::<R>(1e-3) * normal.dot(normal);
+    let cancels = between.dot(between) < R::new(1e-6) * above.dot(above).max(below.dot(below));
+    let tilted = turned.dot(turned) > R::new(1e-3) * normal.dot(normal);
     if cancels & tilted { turned } else { between }
 }
 
 /// Vector form factor, times 2π and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 /// horizon. Each normal has the direction of the cross product of its vertex and the next one.
 pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::Vec3 {
-    let zero: R = constant(0.0);
+    let zero: R = R::new(0.0);
     let up = vertices.map(ltc_is_above::<R>);
     if up == [false; 5] {
         return R::Vec3::new(zero, zero, zero);
@@ -156,22 +156,22 @@ pub fn ltc_quad<R: Real>(
     vertices: [R::Vec3; 4],
     two_sided: bool,
 ) -> R::Vec3 {
-    let zero: R = constant(0.0);
+    let zero: R = R::new(0.0);
     let nothing = R::Vec3::new(zero, zero, zero);
-    let headroom: R = constant(LTC_HEADROOM);
-    let over_two_pi: R = constant(OVER_TWO_PI);
+    let headroom: R = R::new(LTC_HEADROOM);
+    let over_two_pi: R = R::new(OVER_TWO_PI);
     let origin = surface.position * headroom;
     let far = vertices.map(|v| v * headroom);
     let full = far.map(|v| v - origin);
     let extents = full.map(ltc_extent::<R>);
     let extent = extents[0].max(extents[1]).max(extents[2].max(extents[3]));
-    let scale = constant::<R>(1.0) / extent.max(constant(LTC_TINY));
+    let scale = R::new(1.0) / extent.max(R::new(LTC_TINY));
     let sides = [far[1], far[2], far[3]].map(|v| (v - far[0]) * scale);
     let p_a = full[0] * scale;
     let front = sides[1].cross(sides[2] - sides[0]).dot(p_a) < zero;
 
     let size_squared = largest(sides.map(|side| side.dot(side)));
-    let distant = size_squared < constant::<R>(0.0625) * p_a.dot(p_a);
+    let distant = size_squared < R::new(0.0625) * p_a.dot(p_a);
     let first = if distant { nothing } else { p_a };
     let others = if distant { sides } else { [full[1], full[2], full[3]].map(|v| v * scale) };
     let p = [first, others[0], others[1], others[2]];
@@ -190,7 +190,7 @@ pub fn ltc_quad<R: Real>(
         let q: [R::Vec3; 4] = core::array::from_fn(|i| p[(i + turns) % 4]);
         let h: [R; 4] = core::array::from_fn(|i| heights[(i + turns) % 4]);
         let cross = |high: usize, low: usize| {
-            q[high] + (q[low] - q[high]) * (h[high] / (h[high] - h[low]).max(constant(LTC_TINY)))
+            q[high] + (q[low] - q[high]) * (h[high] / (h[high] - h[low]).max(R::new(LTC_TINY)))
         };
         let (up_b, up_c) = (h[1] > zero, h[2] > zero);
         let leave = match (up_b, up_c) {

@@ -58,10 +58,6 @@ pub struct LtcLobe<R: Real> {
     pub normal_z: R::Vec3,
 }
 
-pub(super) fn constant<R: Real>(value: f64) -> R {
-    R::new(value)
-}
-
 /// Largest absolute component of `v`.
 pub fn ltc_extent<R: Real>(v: R::Vec3) -> R {
     v.x().abs().max(v.y().abs()).max(v.z().abs())
@@ -95,15 +91,15 @@ pub fn ltc_surface<R: Real>(
     let basis_y = R::Vec3::new(q, side + n.y() * n.y() * p, -n.y());
     let along = [basis_x.dot(v), basis_y.dot(v)];
     let sine_squared = along[0] * along[0] + along[1] * along[1];
-    let sine_inverse = sine_squared.max(constant(1e-12)).inverse_sqrt();
-    let azimuth = if sine_squared > constant(1e-12) {
+    let sine_inverse = sine_squared.max(R::new(1e-12)).inverse_sqrt();
+    let azimuth = if sine_squared > R::new(1e-12) {
         [along[0] * sine_inverse, along[1] * sine_inverse]
     } else {
         [one, zero]
     };
     let cosine = n.dot(v);
     let sine = if cosine > zero { (sine_squared * sine_inverse).min(one) } else { one };
-    let clamped = roughness.clamp(constant(LTC_ROUGHNESS_FLOOR), one);
+    let clamped = roughness.clamp(R::new(LTC_ROUGHNESS_FLOOR), one);
     LtcSurface {
         position,
         roughness: clamped,
@@ -118,8 +114,8 @@ pub fn ltc_surface<R: Real>(
 
 /// Texture coordinates of a surface in a table of `table_size` by `table_size` texels.
 pub fn ltc_table_coordinates<R: Real>(surface: &LtcSurface<R>, table_size: R) -> R::Vec2 {
-    let root = surface.cos_view * surface.cos_view.max(constant(1e-20)).inverse_sqrt();
-    let coordinate = |c: R| (c * (table_size - constant(1.0)) + constant(0.5)) / table_size;
+    let root = surface.cos_view * surface.cos_view.max(R::new(1e-20)).inverse_sqrt();
+    let coordinate = |c: R| (c * (table_size - R::new(1.0)) + R::new(0.5)) / table_size;
     [coordinate(surface.roughness), coordinate(root)].into()
 }
 
@@ -129,7 +125,7 @@ pub fn ltc_lobe<R: Real>(surface: &LtcSurface<R>, shape: R::Vec4, amplitude: R::
     let [x, y, z, w] = shape.into();
     let [albedo, fresnel, ..] = amplitude.into();
     let m = [c * c + a * x, a * s * y, s * (c + a * z), a * w];
-    let half: R = constant(0.5);
+    let half: R = R::new(0.5);
     LtcLobe {
         entries: m.into(),
         axis_x: surface.tangent * m[0] + surface.normal * m[2],
@@ -137,7 +133,7 @@ pub fn ltc_lobe<R: Real>(surface: &LtcSurface<R>, shape: R::Vec4, amplitude: R::
         axis_y: surface.bitangent,
         fresnel,
         axis_z: surface.tangent * m[1] + surface.normal * m[3],
-        share: half + half * m[0] * (m[0] * m[0] + m[1] * m[1]).max(constant(LTC_TINY)).inverse_sqrt(),
+        share: half + half * m[0] * (m[0] * m[0] + m[1] * m[1]).max(R::new(LTC_TINY)).inverse_sqrt(),
         normal_x: surface.tangent * m[3] - surface.normal * m[1],
         volume: m[0] * m[3] - m[1] * m[2],
         normal_z: surface.normal * m[0] - surface.tangent * m[2],
@@ -181,7 +177,7 @@ pub fn ltc_specular<R: Real>(
     let unit = ltc_direction::<R>(direction);
     let half_cosine =
         (half + half * (surface.sin_view * unit.x() + surface.cos_view * unit.z())).clamp(zero, one);
-    let f = one - half_cosine * half_cosine.max(constant(1e-20)).inverse_sqrt();
+    let f = one - half_cosine * half_cosine.max(R::new(1e-20)).inverse_sqrt();
     let schlick = f * f * f * f * f;
     let whole = coverage * coverage;
     [coverage * lobe.albedo, coverage * (lobe.albedo * schlick * (one - whole) + lobe.fresnel * whole)].into()
