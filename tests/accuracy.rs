@@ -2,7 +2,7 @@
 
 use softbox::brdf::{Brdf, Ggx};
 use softbox::fit::{self, Settings};
-use softbox::report::{Accuracy, REGIONS, Region, Technique, accuracy, random_quads};
+use softbox::report::{Accuracy, Region, Technique, accuracy, random_quads};
 use softbox::table::Table;
 
 fn model(roughness: f64) -> Box<dyn Brdf> {
@@ -43,25 +43,35 @@ fn the_compatible_table_keeps_its_figures() {
     );
 }
 
+/// Specular, Schlick part and dielectric, in per cent, for each range of roughness by each of the cosine.
+const FIGURES: [((f64, f64), [[f64; 3]; 5]); 4] = [
+    (
+        (0.02, 0.1),
+        [[0.02, 0.9, 0.04], [0.03, 0.3, 0.2], [0.1, 0.25, 0.2], [1.9, 1.8, 1.8], [19.0, 16.0, 16.0]],
+    ),
+    ((0.1, 0.3), [[0.3, 7.5, 0.5], [0.6, 2.5, 1.7], [4.5, 5.2, 5.0], [21.0, 14.5, 14.5], [36.0, 24.0, 24.0]]),
+    (
+        (0.3, 0.6),
+        [[1.1, 20.0, 1.9], [2.9, 9.5, 6.0], [8.6, 10.0, 9.5], [14.0, 10.5, 10.5], [17.5, 12.0, 12.0]],
+    ),
+    (
+        (0.6, 1.0),
+        [[1.6, 31.0, 2.9], [3.4, 17.5, 8.5], [5.6, 19.0, 14.5], [7.7, 23.0, 19.0], [8.0, 24.5, 20.5]],
+    ),
+];
+
+const COSINES: [(f64, f64); 5] = [(0.6, 1.0), (0.3, 0.6), (0.05, 0.3), (0.01, 0.05), (0.001, 0.01)];
+
 #[test]
 fn every_region_keeps_its_figures() {
-    // Specular, Schlick part, dielectric, in per cent.
-    let bounds = [
-        [0.24, 6.3, 0.47],
-        [0.56, 2.5, 1.6],
-        [3.9, 4.4, 4.3],
-        [1.0, 19.5, 1.8],
-        [2.8, 8.8, 5.6],
-        [8.4, 9.5, 9.0],
-        [1.4, 29.5, 2.6],
-        [3.2, 17.2, 7.9],
-        [5.4, 17.7, 13.3],
-    ];
-    for (region, [specular, fresnel, dielectric]) in REGIONS.into_iter().zip(bounds) {
-        let measured = accuracy(&Table::default(), Technique::Include, &model, &random_quads(region, 1000));
-        let bound =
-            Accuracy { specular: 0.01 * specular, fresnel: 0.01 * fresnel, dielectric: 0.01 * dielectric };
-        assert_within(&format!("{region:?}"), measured, bound);
+    for (roughness, row) in FIGURES {
+        for (cosine, figures) in COSINES.into_iter().zip(row) {
+            let quads = random_quads(Region { roughness, cosine }, 600);
+            let measured = accuracy(&Table::default(), Technique::Include, &model, &quads);
+            let [specular, fresnel, dielectric] = figures.map(|figure| 0.01 * figure);
+            let bound = Accuracy { specular, fresnel, dielectric };
+            assert_within(&format!("roughness {roughness:?}, cosine {cosine:?}"), measured, bound);
+        }
     }
 }
 
