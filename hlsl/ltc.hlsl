@@ -305,30 +305,56 @@ float3 ltc_edge_normal(float3 a, float3 b, float3 side)
     return cross(((dot(b, b) < dot(a, a)) ? b : a), side);
 }
 
+// The angle between the unit vectors `a` and `b`, whose sine is given.
+float ltc_angle(float3 a, float3 b, float sine)
+{
+    float3 chord = (b - a);
+    float k = (0.5 * dot(chord, chord));
+    float bounded = min(sine, 1.0);
+    const float _e14 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
+    float acute = (bounded + (bounded * _e14));
+    return ((k > 1.0) ? (LTC_PI - acute) : acute);
+}
+
 // The edge integral of the segment between the directions `a` and `b` (unit vectors): the angle t between
 // them along the unit normal of their plane, which is 2 pi times the edge's share of the vector form
-// factor (Lambert; Baum et al. 1989). `normal`, of any length, has the direction of a x b.
+// factor (Lambert; Baum et al. 1989). `normal` is the cross product of the two vectors before they were
+// divided by their lengths, `scale` the reciprocal of the product of these.
 //
 // The usual form (t / sin t) (a x b) takes sin t from 1 - (a.b)^2 and a x b from the products. Both cancel,
 // the first for an edge that subtends nearly 180 degrees, which is every edge of a light that touches
-// the surface, the second for a short one. Here the difference b - a takes the place of b, the length
-// of the cross product is the sine (Lagrange's identity), and its direction comes from the vertices
-// themselves, before they lose the distance at which the edge passes. Bounded by pi for any input.
-float3 ltc_edge(float3 a, float3 b, float3 normal)
+// the surface, the second for a short one. Here both come from ltc_edge_normal, which keeps the distance
+// at which the edge passes. Bounded by pi for any input.
+float3 ltc_edge(float3 a, float3 b, float3 normal, float scale)
 {
-    float3 chord = (b - a);
-    float3 cross_product = cross(a, chord);
-    float squared = dot(cross_product, cross_product);
-    float sine = (squared * rsqrt(max(squared, 1e-30)));
-    float k = (0.5 * dot(chord, chord));
-    const float _e18 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
-    float acute = (sine + (sine * _e18));
-    float angle = ((k > 1.0) ? (LTC_PI - acute) : acute);
-    return (normal * (angle * rsqrt(max(dot(normal, normal), LTC_TINY))));
+    float squared = dot(normal, normal);
+    float inverse_length = rsqrt(max(squared, LTC_TINY));
+    const float _e10 = ltc_angle(a, b, ((squared * inverse_length) * scale));
+    return (normal * (inverse_length * _e10));
+}
+
+// ltc_edge for a part of an edge, for which `normal` has the right direction only.
+float3 ltc_edge_part(float3 a, float3 b, float3 normal)
+{
+    float3 product = cross(a, (b - a));
+    float squared = dot(product, product);
+    float inverse_length = rsqrt(max(dot(normal, normal), LTC_TINY));
+    const float _e14 = ltc_angle(a, b, (squared * rsqrt(max(squared, 1e-30))));
+    return (normal * (inverse_length * _e14));
+}
+
+// ltc_edge_about for offsets that are both shorter than a quarter.
+float3 ltc_edge_near(float3 reference, float3 a, float3 a_offset, float3 b_offset)
+{
+    float along = dot(reference, cross(a_offset, b_offset));
+    float3 across = (0.5 * ((a_offset * dot(b_offset, b_offset)) - (b_offset * dot(a_offset, a_offset))));
+    float3 chord = (b_offset - a_offset);
+    const float _e19 = ltc_angle_excess(min((0.5 * dot(chord, chord)), 1.0));
+    return (((reference * along) + cross(reference, across)) + (cross(a, chord) * _e19));
 }
 
 // The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
-// polygon. The offsets are a - reference and b - reference; `normal` is that of ltc_edge.
+// polygon. The offsets are a - reference and b - reference; `normal` has the direction of a x b.
 //
 // Over a closed polygon the cross products of neighbours add up to those of their offsets from any
 // fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
@@ -338,17 +364,15 @@ float3 ltc_edge(float3 a, float3 b, float3 normal)
 // horizon as well. Exact for polygons of every size.
 float3 ltc_edge_about(float3 reference, float3 a, float3 a_offset, float3 b, float3 b_offset, float3 normal)
 {
-    float a_squared = dot(a_offset, a_offset);
-    float b_squared = dot(b_offset, b_offset);
-    float along = dot(reference, cross(a_offset, b_offset));
-    float3 across = (0.5 * ((a_offset * b_squared) - (b_offset * a_squared)));
-    float3 common_part = ((reference * along) + cross(reference, across));
+    const float3 _e6 = ltc_edge_near(reference, a, a_offset, b_offset);
+    if ((max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < 0.0625)) {
+        return _e6;
+    }
     float3 near_chord = (b_offset - a_offset);
-    const float _e25 = ltc_angle_excess(min((0.5 * dot(near_chord, near_chord)), 1.0));
-    float3 near_part = (cross(a, near_chord) * _e25);
-    const float3 _e27 = ltc_edge(a, b, normal);
-    float3 far_part = (_e27 - cross(a, (b - a)));
-    return (common_part + ((max(a_squared, b_squared) < 0.0625) ? near_part : far_part));
+    const float _e19 = ltc_angle_excess(min((0.5 * dot(near_chord, near_chord)), 1.0));
+    float3 near_part = (cross(a, near_chord) * _e19);
+    const float3 _e22 = ltc_edge_part(a, b, normal);
+    return (((_e6 - near_part) + _e22) - cross(a, (b - a)));
 }
 
 // Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -385,123 +409,97 @@ float3 ltc_crossing(float3 above, float3 below, float3 normal)
 
 // Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 // horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-// next one. Repeated vertices make it any smaller polygon.
-float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_normal, float3 b_normal, float3 c_normal, float3 d_normal, float3 e_normal)
+// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
+float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_normal, float3 b_normal, float3 c_normal, float3 d_normal, float3 e_normal, bool five)
 {
-    float3 a_start = (float3)0;
-    float3 b_start = (float3)0;
-    float3 c_start = (float3)0;
-    float3 d_start = (float3)0;
-    float3 e_start = (float3)0;
-    float3 a_end = (float3)0;
-    float3 b_end = (float3)0;
-    float3 c_end = (float3)0;
-    float3 d_end = (float3)0;
-    float3 e_end = (float3)0;
-    float3 horizon = (0.0).xxx;
+    float3 edges = (float3)0;
 
-    const bool _e10 = ltc_is_above(a);
-    const bool _e11 = ltc_is_above(b);
-    const bool _e12 = ltc_is_above(c);
-    const bool _e13 = ltc_is_above(d);
-    const bool _e14 = ltc_is_above(e);
-    if (!(((((_e10 | _e11) | _e12) | _e13) | _e14))) {
+    const bool _e11 = ltc_is_above(a);
+    const bool _e12 = ltc_is_above(b);
+    const bool _e13 = ltc_is_above(c);
+    const bool _e14 = ltc_is_above(d);
+    const bool _e15 = ltc_is_above(e);
+    if (!(((((_e11 | _e12) | _e13) | _e14) | _e15))) {
         return (0.0).xxx;
     }
-    float3 a_unit = (a * rsqrt(max(dot(a, a), LTC_TINY)));
-    float3 b_unit = (b * rsqrt(max(dot(b, b), LTC_TINY)));
-    float3 c_unit = (c * rsqrt(max(dot(c, c), LTC_TINY)));
-    float3 d_unit = (d * rsqrt(max(dot(d, d), LTC_TINY)));
-    float3 e_unit = (e * rsqrt(max(dot(e, e), LTC_TINY)));
-    a_start = a_unit;
-    b_start = b_unit;
-    c_start = c_unit;
-    d_start = d_unit;
-    e_start = e_unit;
-    a_end = a_unit;
-    b_end = b_unit;
-    c_end = c_unit;
-    d_end = d_unit;
-    e_end = e_unit;
-    if (!(((((_e10 & _e11) & _e12) & _e13) & _e14))) {
-        bool leave_b = (_e11 & !(_e12));
-        bool leave_c = (_e12 & !(_e13));
-        bool leave_d = (_e13 & !(_e14));
-        bool leave_e = (_e14 & !(_e10));
-        float3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
-        float3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
-        float3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
-        bool enter_b = (_e11 & !(_e10));
-        bool enter_c = (_e12 & !(_e11));
-        bool enter_d = (_e13 & !(_e12));
-        bool enter_e = (_e14 & !(_e13));
-        float3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
-        float3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
-        float3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
-        const float3 _e105 = ltc_crossing(leave_from, leave_to, leave_normal);
-        const float3 _e107 = ltc_crossing(enter_to, enter_from, -(enter_normal));
-        float3 leave = (_e105 * rsqrt(max(dot(_e105, _e105), LTC_TINY)));
-        float3 enter = (_e107 * rsqrt(max(dot(_e107, _e107), LTC_TINY)));
-        a_end = (_e10 ? a_unit : (_e14 ? leave : enter));
-        b_end = (_e11 ? b_unit : (_e10 ? leave : enter));
-        c_end = (_e12 ? c_unit : (_e11 ? leave : enter));
-        d_end = (_e13 ? d_unit : (_e12 ? leave : enter));
-        e_end = (_e14 ? e_unit : (_e13 ? leave : enter));
-        a_start = (_e10 ? a_unit : enter);
-        b_start = (_e11 ? b_unit : enter);
-        c_start = (_e12 ? c_unit : enter);
-        d_start = (_e13 ? d_unit : enter);
-        e_start = (_e14 ? e_unit : enter);
-        const float3 _e134 = ltc_edge_normal(_e105, _e107, (_e107 - _e105));
-        const float3 _e135 = ltc_edge(leave, enter, _e134);
-        horizon = _e135;
+    float a_inverse = rsqrt(max(dot(a, a), LTC_TINY));
+    float b_inverse = rsqrt(max(dot(b, b), LTC_TINY));
+    float c_inverse = rsqrt(max(dot(c, c), LTC_TINY));
+    float d_inverse = rsqrt(max(dot(d, d), LTC_TINY));
+    float e_inverse = rsqrt(max(dot(e, e), LTC_TINY));
+    float3 a_unit = (a * a_inverse);
+    float3 b_unit = (b * b_inverse);
+    float3 c_unit = (c * c_inverse);
+    float3 d_unit = (d * d_inverse);
+    float3 e_unit = (e * e_inverse);
+    if (((((_e11 & _e12) & _e13) & _e14) & _e15)) {
+        const float3 _e53 = ltc_edge(a_unit, b_unit, a_normal, (a_inverse * b_inverse));
+        const float3 _e55 = ltc_edge(b_unit, c_unit, b_normal, (b_inverse * c_inverse));
+        const float3 _e58 = ltc_edge(c_unit, d_unit, c_normal, (c_inverse * d_inverse));
+        const float3 _e61 = ltc_edge(e_unit, a_unit, e_normal, (e_inverse * a_inverse));
+        edges = (((_e53 + _e55) + _e58) + _e61);
+        if (five) {
+            float3 _e64 = edges;
+            const float3 _e66 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
+            edges = (_e64 + _e66);
+        }
+        float3 _e68 = edges;
+        return -(_e68);
     }
-    float3 _e136 = a_start;
-    float3 _e137 = b_end;
-    const float3 _e138 = ltc_edge(_e136, _e137, a_normal);
-    float3 _e139 = b_start;
-    float3 _e140 = c_end;
-    const float3 _e141 = ltc_edge(_e139, _e140, b_normal);
-    float3 _e143 = c_start;
-    float3 _e144 = d_end;
-    const float3 _e145 = ltc_edge(_e143, _e144, c_normal);
-    float3 _e147 = d_start;
-    float3 _e148 = e_end;
-    const float3 _e149 = ltc_edge(_e147, _e148, d_normal);
-    float3 _e151 = e_start;
-    float3 _e152 = a_end;
-    const float3 _e153 = ltc_edge(_e151, _e152, e_normal);
-    float3 _e155 = horizon;
-    return -((((((_e138 + _e141) + _e145) + _e149) + _e153) + _e155));
+    bool leave_b = (_e12 & !(_e13));
+    bool leave_c = (_e13 & !(_e14));
+    bool leave_d = (_e14 & !(_e15));
+    bool leave_e = (_e15 & !(_e11));
+    float3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
+    float3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
+    float3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
+    bool enter_b = (_e12 & !(_e11));
+    bool enter_c = (_e13 & !(_e12));
+    bool enter_d = (_e14 & !(_e13));
+    bool enter_e = (_e15 & !(_e14));
+    float3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
+    float3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
+    float3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
+    const float3 _e110 = ltc_crossing(leave_from, leave_to, leave_normal);
+    const float3 _e112 = ltc_crossing(enter_to, enter_from, -(enter_normal));
+    float3 leave = (_e110 * rsqrt(max(dot(_e110, _e110), LTC_TINY)));
+    float3 enter = (_e112 * rsqrt(max(dot(_e112, _e112), LTC_TINY)));
+    float3 a_end = (_e11 ? a_unit : (_e15 ? leave : enter));
+    float3 b_end = (_e12 ? b_unit : (_e11 ? leave : enter));
+    float3 c_end = (_e13 ? c_unit : (_e12 ? leave : enter));
+    float3 d_end = (_e14 ? d_unit : (_e13 ? leave : enter));
+    float3 e_end = (_e15 ? e_unit : (_e14 ? leave : enter));
+    float3 a_start = (_e11 ? a_unit : enter);
+    float3 b_start = (_e12 ? b_unit : enter);
+    float3 c_start = (_e13 ? c_unit : enter);
+    float3 d_start = (_e14 ? d_unit : enter);
+    float3 e_start = (_e15 ? e_unit : enter);
+    const float3 _e139 = ltc_edge_normal(_e110, _e112, (_e112 - _e110));
+    const float3 _e140 = ltc_edge_part(leave, enter, _e139);
+    const float3 _e141 = ltc_edge_part(a_start, b_end, a_normal);
+    const float3 _e142 = ltc_edge_part(b_start, c_end, b_normal);
+    const float3 _e144 = ltc_edge_part(c_start, d_end, c_normal);
+    const float3 _e146 = ltc_edge_part(d_start, e_end, d_normal);
+    const float3 _e148 = ltc_edge_part(e_start, a_end, e_normal);
+    return -((((((_e141 + _e142) + _e144) + _e146) + _e148) + _e140));
 }
 
 // Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-// on or near it and the offsets of its vertices from there, with the normals of ltc_pentagon. Precise
-// however small the pentagon is.
-float3 ltc_far_pentagon(float3 origin, float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_normal, float3 b_normal, float3 c_normal, float3 d_normal, float3 e_normal)
+// on or near it and the offsets of its vertices from there, all much shorter than the distance.
+float3 ltc_far_pentagon(float3 origin, float3 a, float3 b, float3 c, float3 d, float3 e)
 {
     float3 reference = (origin * rsqrt(max(dot(origin, origin), LTC_TINY)));
-    float3 a_point = (origin + a);
-    float3 b_point = (origin + b);
-    float3 c_point = (origin + c);
-    float3 d_point = (origin + d);
-    float3 e_point = (origin + e);
-    const float3 _e21 = ltc_offset(origin, reference, a_point, a);
-    const float3 _e22 = ltc_offset(origin, reference, b_point, b);
-    const float3 _e23 = ltc_offset(origin, reference, c_point, c);
-    const float3 _e24 = ltc_offset(origin, reference, d_point, d);
-    const float3 _e25 = ltc_offset(origin, reference, e_point, e);
-    float3 a_unit = (a_point * rsqrt(max(dot(a_point, a_point), LTC_TINY)));
-    float3 b_unit = (b_point * rsqrt(max(dot(b_point, b_point), LTC_TINY)));
-    float3 c_unit = (c_point * rsqrt(max(dot(c_point, c_point), LTC_TINY)));
-    float3 d_unit = (d_point * rsqrt(max(dot(d_point, d_point), LTC_TINY)));
-    float3 e_unit = (e_point * rsqrt(max(dot(e_point, e_point), LTC_TINY)));
-    const float3 _e51 = ltc_edge_about(reference, a_unit, _e21, b_unit, _e22, a_normal);
-    const float3 _e52 = ltc_edge_about(reference, b_unit, _e22, c_unit, _e23, b_normal);
-    const float3 _e54 = ltc_edge_about(reference, c_unit, _e23, d_unit, _e24, c_normal);
-    const float3 _e56 = ltc_edge_about(reference, d_unit, _e24, e_unit, _e25, d_normal);
-    const float3 _e58 = ltc_edge_about(reference, e_unit, _e25, a_unit, _e21, e_normal);
-    return -(((((_e51 + _e52) + _e54) + _e56) + _e58));
+    const float3 _e12 = ltc_offset(origin, reference, (origin + a), a);
+    const float3 _e14 = ltc_offset(origin, reference, (origin + b), b);
+    const float3 _e16 = ltc_offset(origin, reference, (origin + c), c);
+    const float3 _e18 = ltc_offset(origin, reference, (origin + d), d);
+    const float3 _e20 = ltc_offset(origin, reference, (origin + e), e);
+    const float3 _e22 = ltc_edge_near(reference, (reference + _e12), _e12, _e14);
+    const float3 _e24 = ltc_edge_near(reference, (reference + _e14), _e14, _e16);
+    const float3 _e27 = ltc_edge_near(reference, (reference + _e16), _e16, _e18);
+    const float3 _e30 = ltc_edge_near(reference, (reference + _e18), _e18, _e20);
+    const float3 _e33 = ltc_edge_near(reference, (reference + _e20), _e20, _e12);
+    return -(((((_e22 + _e24) + _e27) + _e30) + _e33));
 }
 
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
@@ -521,6 +519,7 @@ float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, 
     float3 v_d = (float3)0;
     float3 v_e = (float3)0;
     float sum = (float)0;
+    float3 edges = (float3)0;
     float3 lobe_sum = (float3)0;
 
     float3 origin = (surface.position * LTC_HEADROOM);
@@ -561,7 +560,8 @@ float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, 
     v_c = p_c;
     v_d = p_d;
     v_e = p_d;
-    if (!((((a_up & b_up) & c_up) & d_up))) {
+    bool clipped = !((((a_up & b_up) & c_up) & d_up));
+    if (clipped) {
         bool last_a = (b_up & !(a_up));
         bool last_b = (c_up & !(b_up));
         bool last_c = (d_up & !(c_up));
@@ -640,48 +640,59 @@ float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, 
         float3 _e247 = v_c;
         float3 _e248 = v_d;
         float3 _e249 = v_e;
-        const float3 _e250 = ltc_far_pentagon(p_a, _e245, _e246, _e247, _e248, _e249, _e179, _e187, _e195, d_normal, _e215);
+        const float3 _e250 = ltc_far_pentagon(p_a, _e245, _e246, _e247, _e248, _e249);
         sum = dot(surface.normal, _e250);
     } else {
         float3 _e252 = v_a;
         float3 _e253 = v_a;
-        float3 _e254 = v_a;
-        float3 a_unit = (_e252 * rsqrt(max(dot(_e253, _e254), LTC_TINY)));
-        float3 _e260 = v_b;
-        float3 _e261 = v_b;
-        float3 _e262 = v_b;
-        float3 b_unit = (_e260 * rsqrt(max(dot(_e261, _e262), LTC_TINY)));
-        float3 _e268 = v_c;
-        float3 _e269 = v_c;
-        float3 _e270 = v_c;
-        float3 c_unit = (_e268 * rsqrt(max(dot(_e269, _e270), LTC_TINY)));
-        float3 _e276 = v_d;
-        float3 _e277 = v_d;
-        float3 _e278 = v_d;
-        float3 d_unit = (_e276 * rsqrt(max(dot(_e277, _e278), LTC_TINY)));
-        float3 _e284 = v_e;
-        float3 _e285 = v_e;
-        float3 _e286 = v_e;
-        float3 e_unit = (_e284 * rsqrt(max(dot(_e285, _e286), LTC_TINY)));
-        const float3 _e292 = ltc_edge(a_unit, b_unit, _e179);
-        const float3 _e293 = ltc_edge(b_unit, c_unit, _e187);
-        const float3 _e295 = ltc_edge(c_unit, d_unit, _e195);
-        const float3 _e297 = ltc_edge(d_unit, e_unit, d_normal);
-        const float3 _e299 = ltc_edge(e_unit, a_unit, _e215);
-        float3 edges = ((((_e292 + _e293) + _e295) + _e297) + _e299);
-        sum = -(dot(surface.normal, edges));
+        float a_inverse = rsqrt(max(dot(_e252, _e253), LTC_TINY));
+        float3 _e258 = v_b;
+        float3 _e259 = v_b;
+        float b_inverse = rsqrt(max(dot(_e258, _e259), LTC_TINY));
+        float3 _e264 = v_c;
+        float3 _e265 = v_c;
+        float c_inverse = rsqrt(max(dot(_e264, _e265), LTC_TINY));
+        float3 _e270 = v_d;
+        float3 _e271 = v_d;
+        float d_inverse = rsqrt(max(dot(_e270, _e271), LTC_TINY));
+        float3 _e276 = v_e;
+        float3 _e277 = v_e;
+        float e_inverse = rsqrt(max(dot(_e276, _e277), LTC_TINY));
+        float3 _e282 = v_a;
+        float3 a_unit = (_e282 * a_inverse);
+        float3 _e284 = v_b;
+        float3 b_unit = (_e284 * b_inverse);
+        float3 _e286 = v_c;
+        float3 c_unit = (_e286 * c_inverse);
+        float3 _e288 = v_d;
+        float3 d_unit = (_e288 * d_inverse);
+        float3 _e290 = v_e;
+        float3 e_unit = (_e290 * e_inverse);
+        const float3 _e293 = ltc_edge(a_unit, b_unit, _e179, (a_inverse * b_inverse));
+        const float3 _e295 = ltc_edge(b_unit, c_unit, _e187, (b_inverse * c_inverse));
+        const float3 _e298 = ltc_edge(c_unit, d_unit, _e195, (c_inverse * d_inverse));
+        const float3 _e301 = ltc_edge(e_unit, a_unit, _e215, (e_inverse * a_inverse));
+        edges = (((_e293 + _e295) + _e298) + _e301);
+        if (clipped) {
+            float3 _e304 = edges;
+            const float3 _e306 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
+            edges = (_e304 + _e306);
+        }
+        float3 _e309 = edges;
+        sum = -(dot(surface.normal, _e309));
     }
-    if ((distant & (lowest > 0.0))) {
-        const float3 _e308 = ltc_far_pentagon(_e226, _e217, _e219, _e221, _e223, _e225, _e227, _e228, _e229, _e230, _e231);
-        lobe_sum = _e308;
+    float lobe_size = max(max(max(dot(_e217, _e217), dot(_e219, _e219)), max(dot(_e221, _e221), dot(_e223, _e223))), dot(_e225, _e225));
+    if (((distant & (lowest > 0.0)) & (lobe_size < (0.0625 * dot(_e226, _e226))))) {
+        const float3 _e330 = ltc_far_pentagon(_e226, _e217, _e219, _e221, _e223, _e225);
+        lobe_sum = _e330;
     } else {
-        const float3 _e314 = ltc_pentagon((_e226 + _e217), (_e226 + _e219), (_e226 + _e221), (_e226 + _e223), (_e226 + _e225), _e227, _e228, _e229, _e230, _e231);
-        lobe_sum = _e314;
+        const float3 _e336 = ltc_pentagon((_e226 + _e217), (_e226 + _e219), (_e226 + _e221), (_e226 + _e223), (_e226 + _e225), _e227, _e228, _e229, _e230, _e231, clipped);
+        lobe_sum = _e336;
     }
-    float _e315 = sum;
-    float3 _e318 = lobe_sum;
-    const float3 _e321 = ltc_value(surface, lobe, (_e315 * LTC_OVER_TWO_PI), (_e318 * LTC_OVER_TWO_PI), front, two_sided);
-    return _e321;
+    float _e337 = sum;
+    float3 _e340 = lobe_sum;
+    const float3 _e343 = ltc_value(surface, lobe, (_e337 * LTC_OVER_TWO_PI), (_e340 * LTC_OVER_TWO_PI), front, two_sided);
+    return _e343;
 }
 
 // Starts a polygon at its first vertex.
@@ -725,16 +736,16 @@ float3 ltc_edge_from(float3 origin, float3 a, float3 a_offset, float3 b, float3 
 void ltc_polygon_edge(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, float3 reference, float3 a, float3 a_offset, float3 b, float3 b_offset, bool closing)
 {
     const float3 _e10 = ltc_edge_normal(a, b, (b_offset - a_offset));
-    float3 normal_5 = (closing ? (surface.normal * dot(surface.normal, _e10)) : _e10);
+    float3 normal_6 = (closing ? (surface.normal * dot(surface.normal, _e10)) : _e10);
     float _e17 = polygon.diffuse;
-    const float3 _e19 = ltc_edge_from(reference, a, a_offset, b, b_offset, normal_5);
+    const float3 _e19 = ltc_edge_from(reference, a, a_offset, b, b_offset, normal_6);
     polygon.diffuse = (_e17 - dot(surface.normal, _e19));
     const float3 _e22 = ltc_transform(lobe, reference);
     const float3 _e23 = ltc_transform(lobe, a);
     const float3 _e24 = ltc_transform(lobe, b);
     const float3 _e25 = ltc_transform(lobe, a_offset);
     const float3 _e26 = ltc_transform(lobe, b_offset);
-    const float3 _e27 = ltc_transform_normal(lobe, normal_5);
+    const float3 _e27 = ltc_transform_normal(lobe, normal_6);
     const bool _e28 = ltc_is_above(_e23);
     const bool _e29 = ltc_is_above(_e24);
     if ((_e28 & _e29)) {
@@ -789,12 +800,12 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe,
     const float _e20 = ltc_extent((b_far - origin));
     float extent = max(_e18, _e20);
     float _e23 = polygon.scale;
-    float scale_1 = min(_e23, (1000000000000.0 / max(extent, 1e-25)));
-    float3 reference = ((first_far - origin) * scale_1);
-    float3 a = ((a_far - origin) * scale_1);
-    float3 b = ((b_far - origin) * scale_1);
-    float3 a_offset = ((a_far - first_far) * scale_1);
-    float3 b_offset = ((b_far - first_far) * scale_1);
+    float scale_2 = min(_e23, (1000000000000.0 / max(extent, 1e-25)));
+    float3 reference = ((first_far - origin) * scale_2);
+    float3 a = ((a_far - origin) * scale_2);
+    float3 b = ((b_far - origin) * scale_2);
+    float3 a_offset = ((a_far - first_far) * scale_2);
+    float3 b_offset = ((b_far - first_far) * scale_2);
     float _e40 = polygon.facing;
     polygon.facing = (_e40 + dot(cross(a_offset, b_offset), reference));
     polygon.previous = corner;

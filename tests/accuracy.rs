@@ -43,8 +43,10 @@ fn the_compatible_table_keeps_its_figures() {
     );
 }
 
+type Range = (f64, f64);
+
 /// Specular, Schlick part and dielectric, in per cent, for each range of roughness by each of the cosine.
-const FIGURES: [((f64, f64), [[f64; 3]; 5]); 4] = [
+const FIGURES: [(Range, [[f64; 3]; 5]); 4] = [
     (
         (0.02, 0.1),
         [[0.02, 0.9, 0.04], [0.03, 0.3, 0.2], [0.1, 0.25, 0.2], [1.9, 1.8, 1.8], [19.0, 16.0, 16.0]],
@@ -60,7 +62,7 @@ const FIGURES: [((f64, f64), [[f64; 3]; 5]); 4] = [
     ),
 ];
 
-const COSINES: [(f64, f64); 5] = [(0.6, 1.0), (0.3, 0.6), (0.05, 0.3), (0.01, 0.05), (0.001, 0.01)];
+const COSINES: [Range; 5] = [(0.6, 1.0), (0.3, 0.6), (0.05, 0.3), (0.01, 0.05), (0.001, 0.01)];
 
 #[test]
 fn every_region_keeps_its_figures() {

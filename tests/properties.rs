@@ -382,7 +382,7 @@ fn the_published_edge_integral_is_condemned() {
             })
             .fold(0.0, f64::max)
     };
-    let own = |a: Vec3, b: Vec3| ltc_edge::<f32>(a, b, a.cross(b - a));
+    let own = |a: Vec3, b: Vec3| ltc_edge::<f32>(a, b, a.cross(b - a), 1.0);
     assert!(worst(published_edge) > 0.1, "{}", worst(published_edge));
     assert!(worst(own) < 2e-6, "{}", worst(own));
 }

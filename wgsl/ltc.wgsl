@@ -294,26 +294,38 @@ fn ltc_edge_normal(a: vec3<f32>, b: vec3<f32>, side: vec3<f32>) -> vec3<f32> {
 
 /// The edge integral of the segment between the directions `a` and `b` (unit vectors): the angle t between
 /// them along the unit normal of their plane, which is 2 pi times the edge's share of the vector form
-/// factor (Lambert; Baum et al. 1989). `normal`, of any length, has the direction of a x b.
+/// factor (Lambert; Baum et al. 1989). `normal` is the cross product of the two vectors before they were
+/// divided by their lengths, `scale` the reciprocal of the product of these.
 ///
 /// The usual form (t / sin t) (a x b) takes sin t from 1 - (a.b)^2 and a x b from the products. Both cancel,
 /// the first for an edge that subtends nearly 180 degrees, which is every edge of a light that touches
-/// the surface, the second for a short one. Here the difference b - a takes the place of b, the length
-/// of the cross product is the sine (Lagrange's identity), and its direction comes from the vertices
-/// themselves, before they lose the distance at which the edge passes. Bounded by pi for any input.
-fn ltc_edge(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+/// the surface, the second for a short one. Here both come from ltc_edge_normal, which keeps the distance
+/// at which the edge passes. Bounded by pi for any input.
+fn ltc_edge(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>, scale: f32) -> vec3<f32> {
+    let squared = dot(normal, normal);
+    let inverse_length = inverseSqrt(max(squared, LTC_TINY));
+    return normal * (inverse_length * ltc_angle(a, b, squared * inverse_length * scale));
+}
+
+/// ltc_edge for a part of an edge, for which `normal` has the right direction only.
+fn ltc_edge_part(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+    let product = cross(a, b - a);
+    let squared = dot(product, product);
+    let inverse_length = inverseSqrt(max(dot(normal, normal), LTC_TINY));
+    return normal * (inverse_length * ltc_angle(a, b, squared * inverseSqrt(max(squared, 1e-30))));
+}
+
+/// The angle between the unit vectors `a` and `b`, whose sine is given.
+fn ltc_angle(a: vec3<f32>, b: vec3<f32>, sine: f32) -> f32 {
     let chord = b - a;
-    let cross_product = cross(a, chord);
-    let squared = dot(cross_product, cross_product);
-    let sine = squared * inverseSqrt(max(squared, 1e-30));
     let k = 0.5 * dot(chord, chord);
-    let acute = sine + sine * ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
-    let angle = select(acute, LTC_PI - acute, k > 1.0);
-    return normal * (angle * inverseSqrt(max(dot(normal, normal), LTC_TINY)));
+    let bounded = min(sine, 1.0);
+    let acute = bounded + bounded * ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
+    return select(acute, LTC_PI - acute, k > 1.0);
 }
 
 /// The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
-/// polygon. The offsets are a - reference and b - reference; `normal` is that of ltc_edge.
+/// polygon. The offsets are a - reference and b - reference; `normal` has the direction of a x b.
 ///
 /// Over a closed polygon the cross products of neighbours add up to those of their offsets from any
 /// fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
@@ -322,16 +334,23 @@ fn ltc_edge(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
 /// unit reference is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
 /// horizon as well. Exact for polygons of every size.
 fn ltc_edge_about(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
-    let a_squared = dot(a_offset, a_offset);
-    let b_squared = dot(b_offset, b_offset);
-    let along = dot(reference, cross(a_offset, b_offset));
-    let across = 0.5 * (a_offset * b_squared - b_offset * a_squared);
-    let common_part = reference * along + cross(reference, across);
-    // Close to the reference the offsets hold the digits of the difference, far from it the vectors.
+    let near = ltc_edge_near(reference, a, a_offset, b_offset);
+    if (max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < 0.0625) {
+        return near;
+    }
+    // Far from the reference the vectors hold the digits of their difference, not the offsets.
     let near_chord = b_offset - a_offset;
     let near_part = cross(a, near_chord) * ltc_angle_excess(min(0.5 * dot(near_chord, near_chord), 1.0));
-    let far_part = ltc_edge(a, b, normal) - cross(a, b - a);
-    return common_part + select(far_part, near_part, max(a_squared, b_squared) < 0.0625);
+    return near - near_part + ltc_edge_part(a, b, normal) - cross(a, b - a);
+}
+
+/// ltc_edge_about for offsets that are both shorter than a quarter.
+fn ltc_edge_near(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
+    let along = dot(reference, cross(a_offset, b_offset));
+    let across = 0.5 * (a_offset * dot(b_offset, b_offset) - b_offset * dot(a_offset, a_offset));
+    let chord = b_offset - a_offset;
+    let excess = ltc_angle_excess(min(0.5 * dot(chord, chord), 1.0));
+    return reference * along + cross(reference, across) + cross(a, chord) * excess;
 }
 
 /// Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -372,8 +391,8 @@ fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>) -> vec3<f
 
 /// Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 /// horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-/// next one. Repeated vertices make it any smaller polygon.
-fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>) -> vec3<f32> {
+/// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
+fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>, five: bool) -> vec3<f32> {
     let a_up = ltc_is_above(a);
     let b_up = ltc_is_above(b);
     let c_up = ltc_is_above(c);
@@ -382,84 +401,73 @@ fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<
     if (!(a_up | b_up | c_up | d_up | e_up)) {
         return vec3<f32>(0.0);
     }
-    let a_unit = a * inverseSqrt(max(dot(a, a), LTC_TINY));
-    let b_unit = b * inverseSqrt(max(dot(b, b), LTC_TINY));
-    let c_unit = c * inverseSqrt(max(dot(c, c), LTC_TINY));
-    let d_unit = d * inverseSqrt(max(dot(d, d), LTC_TINY));
-    let e_unit = e * inverseSqrt(max(dot(e, e), LTC_TINY));
-    var a_start = a_unit;
-    var b_start = b_unit;
-    var c_start = c_unit;
-    var d_start = d_unit;
-    var e_start = e_unit;
-    var a_end = a_unit;
-    var b_end = b_unit;
-    var c_end = c_unit;
-    var d_end = d_unit;
-    var e_end = e_unit;
-    var horizon = vec3<f32>(0.0);
-    if (!(a_up & b_up & c_up & d_up & e_up)) {
-        // A convex polygon leaves the upper side once and comes back once.
-        let leave_b = b_up & !c_up;
-        let leave_c = c_up & !d_up;
-        let leave_d = d_up & !e_up;
-        let leave_e = e_up & !a_up;
-        let leave_from = select(select(select(select(a, b, leave_b), c, leave_c), d, leave_d), e, leave_e);
-        let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
-        let leave_normal = select(select(select(select(a_normal, b_normal, leave_b), c_normal, leave_c), d_normal, leave_d), e_normal, leave_e);
-        let enter_b = b_up & !a_up;
-        let enter_c = c_up & !b_up;
-        let enter_d = d_up & !c_up;
-        let enter_e = e_up & !d_up;
-        let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
-        let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
-        let enter_normal = select(select(select(select(e_normal, a_normal, enter_b), b_normal, enter_c), c_normal, enter_d), d_normal, enter_e);
-        let leave_point = ltc_crossing(leave_from, leave_to, leave_normal);
-        let enter_point = ltc_crossing(enter_to, enter_from, -enter_normal);
-        let leave = leave_point * inverseSqrt(max(dot(leave_point, leave_point), LTC_TINY));
-        let enter = enter_point * inverseSqrt(max(dot(enter_point, enter_point), LTC_TINY));
-        // Each edge runs between what is left of its ends; an edge below is left with one point.
-        a_end = select(select(enter, leave, e_up), a_unit, a_up);
-        b_end = select(select(enter, leave, a_up), b_unit, b_up);
-        c_end = select(select(enter, leave, b_up), c_unit, c_up);
-        d_end = select(select(enter, leave, c_up), d_unit, d_up);
-        e_end = select(select(enter, leave, d_up), e_unit, e_up);
-        a_start = select(enter, a_unit, a_up);
-        b_start = select(enter, b_unit, b_up);
-        c_start = select(enter, c_unit, c_up);
-        d_start = select(enter, d_unit, d_up);
-        e_start = select(enter, e_unit, e_up);
-        horizon = ltc_edge(leave, enter, ltc_edge_normal(leave_point, enter_point, enter_point - leave_point));
+    let a_inverse = inverseSqrt(max(dot(a, a), LTC_TINY));
+    let b_inverse = inverseSqrt(max(dot(b, b), LTC_TINY));
+    let c_inverse = inverseSqrt(max(dot(c, c), LTC_TINY));
+    let d_inverse = inverseSqrt(max(dot(d, d), LTC_TINY));
+    let e_inverse = inverseSqrt(max(dot(e, e), LTC_TINY));
+    let a_unit = a * a_inverse;
+    let b_unit = b * b_inverse;
+    let c_unit = c * c_inverse;
+    let d_unit = d * d_inverse;
+    let e_unit = e * e_inverse;
+    if (a_up & b_up & c_up & d_up & e_up) {
+        var edges = ltc_edge(a_unit, b_unit, a_normal, a_inverse * b_inverse) + ltc_edge(b_unit, c_unit, b_normal, b_inverse * c_inverse)
+            + ltc_edge(c_unit, d_unit, c_normal, c_inverse * d_inverse) + ltc_edge(e_unit, a_unit, e_normal, e_inverse * a_inverse);
+        if (five) {
+            edges += ltc_edge(d_unit, e_unit, d_normal, d_inverse * e_inverse);
+        }
+        return -edges;
     }
-    return -(ltc_edge(a_start, b_end, a_normal) + ltc_edge(b_start, c_end, b_normal) + ltc_edge(c_start, d_end, c_normal)
-        + ltc_edge(d_start, e_end, d_normal) + ltc_edge(e_start, a_end, e_normal) + horizon);
+    // A convex polygon leaves the upper side once and comes back once.
+    let leave_b = b_up & !c_up;
+    let leave_c = c_up & !d_up;
+    let leave_d = d_up & !e_up;
+    let leave_e = e_up & !a_up;
+    let leave_from = select(select(select(select(a, b, leave_b), c, leave_c), d, leave_d), e, leave_e);
+    let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
+    let leave_normal = select(select(select(select(a_normal, b_normal, leave_b), c_normal, leave_c), d_normal, leave_d), e_normal, leave_e);
+    let enter_b = b_up & !a_up;
+    let enter_c = c_up & !b_up;
+    let enter_d = d_up & !c_up;
+    let enter_e = e_up & !d_up;
+    let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
+    let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
+    let enter_normal = select(select(select(select(e_normal, a_normal, enter_b), b_normal, enter_c), c_normal, enter_d), d_normal, enter_e);
+    let leave_point = ltc_crossing(leave_from, leave_to, leave_normal);
+    let enter_point = ltc_crossing(enter_to, enter_from, -enter_normal);
+    let leave = leave_point * inverseSqrt(max(dot(leave_point, leave_point), LTC_TINY));
+    let enter = enter_point * inverseSqrt(max(dot(enter_point, enter_point), LTC_TINY));
+    // Each edge runs between what is left of its ends; an edge below is left with one point.
+    let a_end = select(select(enter, leave, e_up), a_unit, a_up);
+    let b_end = select(select(enter, leave, a_up), b_unit, b_up);
+    let c_end = select(select(enter, leave, b_up), c_unit, c_up);
+    let d_end = select(select(enter, leave, c_up), d_unit, d_up);
+    let e_end = select(select(enter, leave, d_up), e_unit, e_up);
+    let a_start = select(enter, a_unit, a_up);
+    let b_start = select(enter, b_unit, b_up);
+    let c_start = select(enter, c_unit, c_up);
+    let d_start = select(enter, d_unit, d_up);
+    let e_start = select(enter, e_unit, e_up);
+    let horizon = ltc_edge_part(leave, enter, ltc_edge_normal(leave_point, enter_point, enter_point - leave_point));
+    return -(ltc_edge_part(a_start, b_end, a_normal) + ltc_edge_part(b_start, c_end, b_normal) + ltc_edge_part(c_start, d_end, c_normal)
+        + ltc_edge_part(d_start, e_end, d_normal) + ltc_edge_part(e_start, a_end, e_normal) + horizon);
 }
 
 /// Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-/// on or near it and the offsets of its vertices from there, with the normals of ltc_pentagon. Precise
-/// however small the pentagon is.
-fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>) -> vec3<f32> {
+/// on or near it and the offsets of its vertices from there, all much shorter than the distance.
+fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>) -> vec3<f32> {
     let reference = origin * inverseSqrt(max(dot(origin, origin), LTC_TINY));
-    let a_point = origin + a;
-    let b_point = origin + b;
-    let c_point = origin + c;
-    let d_point = origin + d;
-    let e_point = origin + e;
-    let a_offset = ltc_offset(origin, reference, a_point, a);
-    let b_offset = ltc_offset(origin, reference, b_point, b);
-    let c_offset = ltc_offset(origin, reference, c_point, c);
-    let d_offset = ltc_offset(origin, reference, d_point, d);
-    let e_offset = ltc_offset(origin, reference, e_point, e);
-    let a_unit = a_point * inverseSqrt(max(dot(a_point, a_point), LTC_TINY));
-    let b_unit = b_point * inverseSqrt(max(dot(b_point, b_point), LTC_TINY));
-    let c_unit = c_point * inverseSqrt(max(dot(c_point, c_point), LTC_TINY));
-    let d_unit = d_point * inverseSqrt(max(dot(d_point, d_point), LTC_TINY));
-    let e_unit = e_point * inverseSqrt(max(dot(e_point, e_point), LTC_TINY));
-    return -(ltc_edge_about(reference, a_unit, a_offset, b_unit, b_offset, a_normal)
-        + ltc_edge_about(reference, b_unit, b_offset, c_unit, c_offset, b_normal)
-        + ltc_edge_about(reference, c_unit, c_offset, d_unit, d_offset, c_normal)
-        + ltc_edge_about(reference, d_unit, d_offset, e_unit, e_offset, d_normal)
-        + ltc_edge_about(reference, e_unit, e_offset, a_unit, a_offset, e_normal));
+    let a_offset = ltc_offset(origin, reference, origin + a, a);
+    let b_offset = ltc_offset(origin, reference, origin + b, b);
+    let c_offset = ltc_offset(origin, reference, origin + c, c);
+    let d_offset = ltc_offset(origin, reference, origin + d, d);
+    let e_offset = ltc_offset(origin, reference, origin + e, e);
+    return -(ltc_edge_near(reference, reference + a_offset, a_offset, b_offset)
+        + ltc_edge_near(reference, reference + b_offset, b_offset, c_offset)
+        + ltc_edge_near(reference, reference + c_offset, c_offset, d_offset)
+        + ltc_edge_near(reference, reference + d_offset, d_offset, e_offset)
+        + ltc_edge_near(reference, reference + e_offset, e_offset, a_offset));
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
@@ -511,7 +519,8 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     var v_c = p_c;
     var v_d = p_d;
     var v_e = p_d;
-    if (!(a_up & b_up & c_up & d_up)) {
+    let clipped = !(a_up & b_up & c_up & d_up);
+    if (clipped) {
         // Turn the quad until its last vertex is the last one below; the quad cut at the surface is
         // then the pentagon of the first three vertices, the exit and the entry.
         let last_a = b_up & !a_up;
@@ -565,22 +574,32 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let lowest = l_base.z + min(min(min(l_a.z, l_b.z), min(l_c.z, l_d.z)), l_e.z);
     var sum: f32;
     if (distant) {
-        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e, a_normal, b_normal, c_normal, d_normal, e_normal));
+        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e));
     } else {
-        let a_unit = v_a * inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
-        let b_unit = v_b * inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
-        let c_unit = v_c * inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
-        let d_unit = v_d * inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
-        let e_unit = v_e * inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
-        let edges = ltc_edge(a_unit, b_unit, a_normal) + ltc_edge(b_unit, c_unit, b_normal) + ltc_edge(c_unit, d_unit, c_normal)
-            + ltc_edge(d_unit, e_unit, d_normal) + ltc_edge(e_unit, a_unit, e_normal);
+        let a_inverse = inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
+        let b_inverse = inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
+        let c_inverse = inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
+        let d_inverse = inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
+        let e_inverse = inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
+        let a_unit = v_a * a_inverse;
+        let b_unit = v_b * b_inverse;
+        let c_unit = v_c * c_inverse;
+        let d_unit = v_d * d_inverse;
+        let e_unit = v_e * e_inverse;
+        var edges = ltc_edge(a_unit, b_unit, a_normal, a_inverse * b_inverse) + ltc_edge(b_unit, c_unit, b_normal, b_inverse * c_inverse)
+            + ltc_edge(c_unit, d_unit, c_normal, c_inverse * d_inverse) + ltc_edge(e_unit, a_unit, e_normal, e_inverse * a_inverse);
+        if (clipped) {
+            edges += ltc_edge(d_unit, e_unit, d_normal, d_inverse * e_inverse);
+        }
         sum = -dot(surface.normal, edges);
     }
     var lobe_sum: vec3<f32>;
-    if (distant & (lowest > 0.0)) {
-        lobe_sum = ltc_far_pentagon(l_base, l_a, l_b, l_c, l_d, l_e, m_a, m_b, m_c, m_d, m_e);
+    // The lobe's space stretches: there a distant light may be near.
+    let lobe_size = max(max(max(dot(l_a, l_a), dot(l_b, l_b)), max(dot(l_c, l_c), dot(l_d, l_d))), dot(l_e, l_e));
+    if (distant & (lowest > 0.0) & (lobe_size < 0.0625 * dot(l_base, l_base))) {
+        lobe_sum = ltc_far_pentagon(l_base, l_a, l_b, l_c, l_d, l_e);
     } else {
-        lobe_sum = ltc_pentagon(l_base + l_a, l_base + l_b, l_base + l_c, l_base + l_d, l_base + l_e, m_a, m_b, m_c, m_d, m_e);
+        lobe_sum = ltc_pentagon(l_base + l_a, l_base + l_b, l_base + l_c, l_base + l_d, l_base + l_e, m_a, m_b, m_c, m_d, m_e, clipped);
     }
     return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
 }

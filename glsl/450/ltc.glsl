@@ -289,29 +289,52 @@ vec3 ltc_edge_normal(vec3 a, vec3 b, vec3 side) {
     return cross(((dot(b, b) < dot(a, a)) ? b : a), side);
 }
 
+// The angle between the unit vectors `a` and `b`, whose sine is given.
+float ltc_angle(vec3 a, vec3 b, float sine) {
+    vec3 chord = (b - a);
+    float k = (0.5 * dot(chord, chord));
+    float bounded = min(sine, 1.0);
+    float _e14 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
+    float acute = (bounded + (bounded * _e14));
+    return ((k > 1.0) ? (LTC_PI - acute) : acute);
+}
+
 // The edge integral of the segment between the directions `a` and `b` (unit vectors): the angle t between
 // them along the unit normal of their plane, which is 2 pi times the edge's share of the vector form
-// factor (Lambert; Baum et al. 1989). `normal`, of any length, has the direction of a x b.
+// factor (Lambert; Baum et al. 1989). `normal` is the cross product of the two vectors before they were
+// divided by their lengths, `scale` the reciprocal of the product of these.
 //
 // The usual form (t / sin t) (a x b) takes sin t from 1 - (a.b)^2 and a x b from the products. Both cancel,
 // the first for an edge that subtends nearly 180 degrees, which is every edge of a light that touches
-// the surface, the second for a short one. Here the difference b - a takes the place of b, the length
-// of the cross product is the sine (Lagrange's identity), and its direction comes from the vertices
-// themselves, before they lose the distance at which the edge passes. Bounded by pi for any input.
-vec3 ltc_edge(vec3 a, vec3 b, vec3 normal) {
-    vec3 chord = (b - a);
-    vec3 cross_product = cross(a, chord);
-    float squared = dot(cross_product, cross_product);
-    float sine = (squared * inversesqrt(max(squared, 1e-30)));
-    float k = (0.5 * dot(chord, chord));
-    float _e18 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
-    float acute = (sine + (sine * _e18));
-    float angle = ((k > 1.0) ? (LTC_PI - acute) : acute);
-    return (normal * (angle * inversesqrt(max(dot(normal, normal), LTC_TINY))));
+// the surface, the second for a short one. Here both come from ltc_edge_normal, which keeps the distance
+// at which the edge passes. Bounded by pi for any input.
+vec3 ltc_edge(vec3 a, vec3 b, vec3 normal, float scale) {
+    float squared = dot(normal, normal);
+    float inverse_length = inversesqrt(max(squared, LTC_TINY));
+    float _e10 = ltc_angle(a, b, ((squared * inverse_length) * scale));
+    return (normal * (inverse_length * _e10));
+}
+
+// ltc_edge for a part of an edge, for which `normal` has the right direction only.
+vec3 ltc_edge_part(vec3 a, vec3 b, vec3 normal) {
+    vec3 product = cross(a, (b - a));
+    float squared = dot(product, product);
+    float inverse_length = inversesqrt(max(dot(normal, normal), LTC_TINY));
+    float _e14 = ltc_angle(a, b, (squared * inversesqrt(max(squared, 1e-30))));
+    return (normal * (inverse_length * _e14));
+}
+
+// ltc_edge_about for offsets that are both shorter than a quarter.
+vec3 ltc_edge_near(vec3 reference, vec3 a, vec3 a_offset, vec3 b_offset) {
+    float along = dot(reference, cross(a_offset, b_offset));
+    vec3 across = (0.5 * ((a_offset * dot(b_offset, b_offset)) - (b_offset * dot(a_offset, a_offset))));
+    vec3 chord = (b_offset - a_offset);
+    float _e19 = ltc_angle_excess(min((0.5 * dot(chord, chord)), 1.0));
+    return (((reference * along) + cross(reference, across)) + (cross(a, chord) * _e19));
 }
 
 // The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
-// polygon. The offsets are a - reference and b - reference; `normal` is that of ltc_edge.
+// polygon. The offsets are a - reference and b - reference; `normal` has the direction of a x b.
 //
 // Over a closed polygon the cross products of neighbours add up to those of their offsets from any
 // fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
@@ -320,17 +343,15 @@ vec3 ltc_edge(vec3 a, vec3 b, vec3 normal) {
 // unit reference is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
 // horizon as well. Exact for polygons of every size.
 vec3 ltc_edge_about(vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal) {
-    float a_squared = dot(a_offset, a_offset);
-    float b_squared = dot(b_offset, b_offset);
-    float along = dot(reference, cross(a_offset, b_offset));
-    vec3 across = (0.5 * ((a_offset * b_squared) - (b_offset * a_squared)));
-    vec3 common_part = ((reference * along) + cross(reference, across));
+    vec3 _e6 = ltc_edge_near(reference, a, a_offset, b_offset);
+    if ((max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < 0.0625)) {
+        return _e6;
+    }
     vec3 near_chord = (b_offset - a_offset);
-    float _e25 = ltc_angle_excess(min((0.5 * dot(near_chord, near_chord)), 1.0));
-    vec3 near_part = (cross(a, near_chord) * _e25);
-    vec3 _e27 = ltc_edge(a, b, normal);
-    vec3 far_part = (_e27 - cross(a, (b - a)));
-    return (common_part + ((max(a_squared, b_squared) < 0.0625) ? near_part : far_part));
+    float _e19 = ltc_angle_excess(min((0.5 * dot(near_chord, near_chord)), 1.0));
+    vec3 near_part = (cross(a, near_chord) * _e19);
+    vec3 _e22 = ltc_edge_part(a, b, normal);
+    return (((_e6 - near_part) + _e22) - cross(a, (b - a)));
 }
 
 // Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -364,120 +385,94 @@ vec3 ltc_crossing(vec3 above, vec3 below, vec3 normal) {
 
 // Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 // horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-// next one. Repeated vertices make it any smaller polygon.
-vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_normal, vec3 c_normal, vec3 d_normal, vec3 e_normal) {
-    vec3 a_start = vec3(0.0);
-    vec3 b_start = vec3(0.0);
-    vec3 c_start = vec3(0.0);
-    vec3 d_start = vec3(0.0);
-    vec3 e_start = vec3(0.0);
-    vec3 a_end = vec3(0.0);
-    vec3 b_end = vec3(0.0);
-    vec3 c_end = vec3(0.0);
-    vec3 d_end = vec3(0.0);
-    vec3 e_end = vec3(0.0);
-    vec3 horizon = vec3(0.0);
-    bool _e10 = ltc_is_above(a);
-    bool _e11 = ltc_is_above(b);
-    bool _e12 = ltc_is_above(c);
-    bool _e13 = ltc_is_above(d);
-    bool _e14 = ltc_is_above(e);
-    if (!(((((_e10 || _e11) || _e12) || _e13) || _e14))) {
+// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
+vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_normal, vec3 c_normal, vec3 d_normal, vec3 e_normal, bool five) {
+    vec3 edges = vec3(0.0);
+    bool _e11 = ltc_is_above(a);
+    bool _e12 = ltc_is_above(b);
+    bool _e13 = ltc_is_above(c);
+    bool _e14 = ltc_is_above(d);
+    bool _e15 = ltc_is_above(e);
+    if (!(((((_e11 || _e12) || _e13) || _e14) || _e15))) {
         return vec3(0.0);
     }
-    vec3 a_unit = (a * inversesqrt(max(dot(a, a), LTC_TINY)));
-    vec3 b_unit = (b * inversesqrt(max(dot(b, b), LTC_TINY)));
-    vec3 c_unit = (c * inversesqrt(max(dot(c, c), LTC_TINY)));
-    vec3 d_unit = (d * inversesqrt(max(dot(d, d), LTC_TINY)));
-    vec3 e_unit = (e * inversesqrt(max(dot(e, e), LTC_TINY)));
-    a_start = a_unit;
-    b_start = b_unit;
-    c_start = c_unit;
-    d_start = d_unit;
-    e_start = e_unit;
-    a_end = a_unit;
-    b_end = b_unit;
-    c_end = c_unit;
-    d_end = d_unit;
-    e_end = e_unit;
-    if (!(((((_e10 && _e11) && _e12) && _e13) && _e14))) {
-        bool leave_b = (_e11 && !(_e12));
-        bool leave_c = (_e12 && !(_e13));
-        bool leave_d = (_e13 && !(_e14));
-        bool leave_e = (_e14 && !(_e10));
-        vec3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
-        vec3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
-        vec3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
-        bool enter_b = (_e11 && !(_e10));
-        bool enter_c = (_e12 && !(_e11));
-        bool enter_d = (_e13 && !(_e12));
-        bool enter_e = (_e14 && !(_e13));
-        vec3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
-        vec3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
-        vec3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
-        vec3 _e105 = ltc_crossing(leave_from, leave_to, leave_normal);
-        vec3 _e107 = ltc_crossing(enter_to, enter_from, -(enter_normal));
-        vec3 leave = (_e105 * inversesqrt(max(dot(_e105, _e105), LTC_TINY)));
-        vec3 enter = (_e107 * inversesqrt(max(dot(_e107, _e107), LTC_TINY)));
-        a_end = (_e10 ? a_unit : (_e14 ? leave : enter));
-        b_end = (_e11 ? b_unit : (_e10 ? leave : enter));
-        c_end = (_e12 ? c_unit : (_e11 ? leave : enter));
-        d_end = (_e13 ? d_unit : (_e12 ? leave : enter));
-        e_end = (_e14 ? e_unit : (_e13 ? leave : enter));
-        a_start = (_e10 ? a_unit : enter);
-        b_start = (_e11 ? b_unit : enter);
-        c_start = (_e12 ? c_unit : enter);
-        d_start = (_e13 ? d_unit : enter);
-        e_start = (_e14 ? e_unit : enter);
-        vec3 _e134 = ltc_edge_normal(_e105, _e107, (_e107 - _e105));
-        vec3 _e135 = ltc_edge(leave, enter, _e134);
-        horizon = _e135;
+    float a_inverse = inversesqrt(max(dot(a, a), LTC_TINY));
+    float b_inverse = inversesqrt(max(dot(b, b), LTC_TINY));
+    float c_inverse = inversesqrt(max(dot(c, c), LTC_TINY));
+    float d_inverse = inversesqrt(max(dot(d, d), LTC_TINY));
+    float e_inverse = inversesqrt(max(dot(e, e), LTC_TINY));
+    vec3 a_unit = (a * a_inverse);
+    vec3 b_unit = (b * b_inverse);
+    vec3 c_unit = (c * c_inverse);
+    vec3 d_unit = (d * d_inverse);
+    vec3 e_unit = (e * e_inverse);
+    if (((((_e11 && _e12) && _e13) && _e14) && _e15)) {
+        vec3 _e53 = ltc_edge(a_unit, b_unit, a_normal, (a_inverse * b_inverse));
+        vec3 _e55 = ltc_edge(b_unit, c_unit, b_normal, (b_inverse * c_inverse));
+        vec3 _e58 = ltc_edge(c_unit, d_unit, c_normal, (c_inverse * d_inverse));
+        vec3 _e61 = ltc_edge(e_unit, a_unit, e_normal, (e_inverse * a_inverse));
+        edges = (((_e53 + _e55) + _e58) + _e61);
+        if (five) {
+            vec3 _e64 = edges;
+            vec3 _e66 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
+            edges = (_e64 + _e66);
+        }
+        vec3 _e68 = edges;
+        return -(_e68);
     }
-    vec3 _e136 = a_start;
-    vec3 _e137 = b_end;
-    vec3 _e138 = ltc_edge(_e136, _e137, a_normal);
-    vec3 _e139 = b_start;
-    vec3 _e140 = c_end;
-    vec3 _e141 = ltc_edge(_e139, _e140, b_normal);
-    vec3 _e143 = c_start;
-    vec3 _e144 = d_end;
-    vec3 _e145 = ltc_edge(_e143, _e144, c_normal);
-    vec3 _e147 = d_start;
-    vec3 _e148 = e_end;
-    vec3 _e149 = ltc_edge(_e147, _e148, d_normal);
-    vec3 _e151 = e_start;
-    vec3 _e152 = a_end;
-    vec3 _e153 = ltc_edge(_e151, _e152, e_normal);
-    vec3 _e155 = horizon;
-    return -((((((_e138 + _e141) + _e145) + _e149) + _e153) + _e155));
+    bool leave_b = (_e12 && !(_e13));
+    bool leave_c = (_e13 && !(_e14));
+    bool leave_d = (_e14 && !(_e15));
+    bool leave_e = (_e15 && !(_e11));
+    vec3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
+    vec3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
+    vec3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
+    bool enter_b = (_e12 && !(_e11));
+    bool enter_c = (_e13 && !(_e12));
+    bool enter_d = (_e14 && !(_e13));
+    bool enter_e = (_e15 && !(_e14));
+    vec3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
+    vec3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
+    vec3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
+    vec3 _e110 = ltc_crossing(leave_from, leave_to, leave_normal);
+    vec3 _e112 = ltc_crossing(enter_to, enter_from, -(enter_normal));
+    vec3 leave = (_e110 * inversesqrt(max(dot(_e110, _e110), LTC_TINY)));
+    vec3 enter = (_e112 * inversesqrt(max(dot(_e112, _e112), LTC_TINY)));
+    vec3 a_end = (_e11 ? a_unit : (_e15 ? leave : enter));
+    vec3 b_end = (_e12 ? b_unit : (_e11 ? leave : enter));
+    vec3 c_end = (_e13 ? c_unit : (_e12 ? leave : enter));
+    vec3 d_end = (_e14 ? d_unit : (_e13 ? leave : enter));
+    vec3 e_end = (_e15 ? e_unit : (_e14 ? leave : enter));
+    vec3 a_start = (_e11 ? a_unit : enter);
+    vec3 b_start = (_e12 ? b_unit : enter);
+    vec3 c_start = (_e13 ? c_unit : enter);
+    vec3 d_start = (_e14 ? d_unit : enter);
+    vec3 e_start = (_e15 ? e_unit : enter);
+    vec3 _e139 = ltc_edge_normal(_e110, _e112, (_e112 - _e110));
+    vec3 _e140 = ltc_edge_part(leave, enter, _e139);
+    vec3 _e141 = ltc_edge_part(a_start, b_end, a_normal);
+    vec3 _e142 = ltc_edge_part(b_start, c_end, b_normal);
+    vec3 _e144 = ltc_edge_part(c_start, d_end, c_normal);
+    vec3 _e146 = ltc_edge_part(d_start, e_end, d_normal);
+    vec3 _e148 = ltc_edge_part(e_start, a_end, e_normal);
+    return -((((((_e141 + _e142) + _e144) + _e146) + _e148) + _e140));
 }
 
 // Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-// on or near it and the offsets of its vertices from there, with the normals of ltc_pentagon. Precise
-// however small the pentagon is.
-vec3 ltc_far_pentagon(vec3 origin, vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_normal, vec3 c_normal, vec3 d_normal, vec3 e_normal) {
+// on or near it and the offsets of its vertices from there, all much shorter than the distance.
+vec3 ltc_far_pentagon(vec3 origin, vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
     vec3 reference = (origin * inversesqrt(max(dot(origin, origin), LTC_TINY)));
-    vec3 a_point = (origin + a);
-    vec3 b_point = (origin + b);
-    vec3 c_point = (origin + c);
-    vec3 d_point = (origin + d);
-    vec3 e_point = (origin + e);
-    vec3 _e21 = ltc_offset(origin, reference, a_point, a);
-    vec3 _e22 = ltc_offset(origin, reference, b_point, b);
-    vec3 _e23 = ltc_offset(origin, reference, c_point, c);
-    vec3 _e24 = ltc_offset(origin, reference, d_point, d);
-    vec3 _e25 = ltc_offset(origin, reference, e_point, e);
-    vec3 a_unit = (a_point * inversesqrt(max(dot(a_point, a_point), LTC_TINY)));
-    vec3 b_unit = (b_point * inversesqrt(max(dot(b_point, b_point), LTC_TINY)));
-    vec3 c_unit = (c_point * inversesqrt(max(dot(c_point, c_point), LTC_TINY)));
-    vec3 d_unit = (d_point * inversesqrt(max(dot(d_point, d_point), LTC_TINY)));
-    vec3 e_unit = (e_point * inversesqrt(max(dot(e_point, e_point), LTC_TINY)));
-    vec3 _e51 = ltc_edge_about(reference, a_unit, _e21, b_unit, _e22, a_normal);
-    vec3 _e52 = ltc_edge_about(reference, b_unit, _e22, c_unit, _e23, b_normal);
-    vec3 _e54 = ltc_edge_about(reference, c_unit, _e23, d_unit, _e24, c_normal);
-    vec3 _e56 = ltc_edge_about(reference, d_unit, _e24, e_unit, _e25, d_normal);
-    vec3 _e58 = ltc_edge_about(reference, e_unit, _e25, a_unit, _e21, e_normal);
-    return -(((((_e51 + _e52) + _e54) + _e56) + _e58));
+    vec3 _e12 = ltc_offset(origin, reference, (origin + a), a);
+    vec3 _e14 = ltc_offset(origin, reference, (origin + b), b);
+    vec3 _e16 = ltc_offset(origin, reference, (origin + c), c);
+    vec3 _e18 = ltc_offset(origin, reference, (origin + d), d);
+    vec3 _e20 = ltc_offset(origin, reference, (origin + e), e);
+    vec3 _e22 = ltc_edge_near(reference, (reference + _e12), _e12, _e14);
+    vec3 _e24 = ltc_edge_near(reference, (reference + _e14), _e14, _e16);
+    vec3 _e27 = ltc_edge_near(reference, (reference + _e16), _e16, _e18);
+    vec3 _e30 = ltc_edge_near(reference, (reference + _e18), _e18, _e20);
+    vec3 _e33 = ltc_edge_near(reference, (reference + _e20), _e20, _e12);
+    return -(((((_e22 + _e24) + _e27) + _e30) + _e33));
 }
 
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
@@ -496,6 +491,7 @@ vec3 ltc_quad(LtcSurface surface, LtcLobe lobe, vec3 a, vec3 b, vec3 c, vec3 d, 
     vec3 v_d = vec3(0.0);
     vec3 v_e = vec3(0.0);
     float sum = 0.0;
+    vec3 edges = vec3(0.0);
     vec3 lobe_sum = vec3(0.0);
     vec3 origin = (surface.position * LTC_HEADROOM);
     vec3 a_far = (a * LTC_HEADROOM);
@@ -535,7 +531,8 @@ vec3 ltc_quad(LtcSurface surface, LtcLobe lobe, vec3 a, vec3 b, vec3 c, vec3 d, 
     v_c = p_c;
     v_d = p_d;
     v_e = p_d;
-    if (!((((a_up && b_up) && c_up) && d_up))) {
+    bool clipped = !((((a_up && b_up) && c_up) && d_up));
+    if (clipped) {
         bool last_a = (b_up && !(a_up));
         bool last_b = (c_up && !(b_up));
         bool last_c = (d_up && !(c_up));
@@ -614,48 +611,59 @@ vec3 ltc_quad(LtcSurface surface, LtcLobe lobe, vec3 a, vec3 b, vec3 c, vec3 d, 
         vec3 _e247 = v_c;
         vec3 _e248 = v_d;
         vec3 _e249 = v_e;
-        vec3 _e250 = ltc_far_pentagon(p_a, _e245, _e246, _e247, _e248, _e249, _e179, _e187, _e195, d_normal, _e215);
+        vec3 _e250 = ltc_far_pentagon(p_a, _e245, _e246, _e247, _e248, _e249);
         sum = dot(surface.normal, _e250);
     } else {
         vec3 _e252 = v_a;
         vec3 _e253 = v_a;
-        vec3 _e254 = v_a;
-        vec3 a_unit = (_e252 * inversesqrt(max(dot(_e253, _e254), LTC_TINY)));
-        vec3 _e260 = v_b;
-        vec3 _e261 = v_b;
-        vec3 _e262 = v_b;
-        vec3 b_unit = (_e260 * inversesqrt(max(dot(_e261, _e262), LTC_TINY)));
-        vec3 _e268 = v_c;
-        vec3 _e269 = v_c;
-        vec3 _e270 = v_c;
-        vec3 c_unit = (_e268 * inversesqrt(max(dot(_e269, _e270), LTC_TINY)));
-        vec3 _e276 = v_d;
-        vec3 _e277 = v_d;
-        vec3 _e278 = v_d;
-        vec3 d_unit = (_e276 * inversesqrt(max(dot(_e277, _e278), LTC_TINY)));
-        vec3 _e284 = v_e;
-        vec3 _e285 = v_e;
-        vec3 _e286 = v_e;
-        vec3 e_unit = (_e284 * inversesqrt(max(dot(_e285, _e286), LTC_TINY)));
-        vec3 _e292 = ltc_edge(a_unit, b_unit, _e179);
-        vec3 _e293 = ltc_edge(b_unit, c_unit, _e187);
-        vec3 _e295 = ltc_edge(c_unit, d_unit, _e195);
-        vec3 _e297 = ltc_edge(d_unit, e_unit, d_normal);
-        vec3 _e299 = ltc_edge(e_unit, a_unit, _e215);
-        vec3 edges = ((((_e292 + _e293) + _e295) + _e297) + _e299);
-        sum = -(dot(surface.normal, edges));
+        float a_inverse = inversesqrt(max(dot(_e252, _e253), LTC_TINY));
+        vec3 _e258 = v_b;
+        vec3 _e259 = v_b;
+        float b_inverse = inversesqrt(max(dot(_e258, _e259), LTC_TINY));
+        vec3 _e264 = v_c;
+        vec3 _e265 = v_c;
+        float c_inverse = inversesqrt(max(dot(_e264, _e265), LTC_TINY));
+        vec3 _e270 = v_d;
+        vec3 _e271 = v_d;
+        float d_inverse = inversesqrt(max(dot(_e270, _e271), LTC_TINY));
+        vec3 _e276 = v_e;
+        vec3 _e277 = v_e;
+        float e_inverse = inversesqrt(max(dot(_e276, _e277), LTC_TINY));
+        vec3 _e282 = v_a;
+        vec3 a_unit = (_e282 * a_inverse);
+        vec3 _e284 = v_b;
+        vec3 b_unit = (_e284 * b_inverse);
+        vec3 _e286 = v_c;
+        vec3 c_unit = (_e286 * c_inverse);
+        vec3 _e288 = v_d;
+        vec3 d_unit = (_e288 * d_inverse);
+        vec3 _e290 = v_e;
+        vec3 e_unit = (_e290 * e_inverse);
+        vec3 _e293 = ltc_edge(a_unit, b_unit, _e179, (a_inverse * b_inverse));
+        vec3 _e295 = ltc_edge(b_unit, c_unit, _e187, (b_inverse * c_inverse));
+        vec3 _e298 = ltc_edge(c_unit, d_unit, _e195, (c_inverse * d_inverse));
+        vec3 _e301 = ltc_edge(e_unit, a_unit, _e215, (e_inverse * a_inverse));
+        edges = (((_e293 + _e295) + _e298) + _e301);
+        if (clipped) {
+            vec3 _e304 = edges;
+            vec3 _e306 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
+            edges = (_e304 + _e306);
+        }
+        vec3 _e309 = edges;
+        sum = -(dot(surface.normal, _e309));
     }
-    if ((distant && (lowest > 0.0))) {
-        vec3 _e308 = ltc_far_pentagon(_e226, _e217, _e219, _e221, _e223, _e225, _e227, _e228, _e229, _e230, _e231);
-        lobe_sum = _e308;
+    float lobe_size = max(max(max(dot(_e217, _e217), dot(_e219, _e219)), max(dot(_e221, _e221), dot(_e223, _e223))), dot(_e225, _e225));
+    if (((distant && (lowest > 0.0)) && (lobe_size < (0.0625 * dot(_e226, _e226))))) {
+        vec3 _e330 = ltc_far_pentagon(_e226, _e217, _e219, _e221, _e223, _e225);
+        lobe_sum = _e330;
     } else {
-        vec3 _e314 = ltc_pentagon((_e226 + _e217), (_e226 + _e219), (_e226 + _e221), (_e226 + _e223), (_e226 + _e225), _e227, _e228, _e229, _e230, _e231);
-        lobe_sum = _e314;
+        vec3 _e336 = ltc_pentagon((_e226 + _e217), (_e226 + _e219), (_e226 + _e221), (_e226 + _e223), (_e226 + _e225), _e227, _e228, _e229, _e230, _e231, clipped);
+        lobe_sum = _e336;
     }
-    float _e315 = sum;
-    vec3 _e318 = lobe_sum;
-    vec3 _e321 = ltc_value(surface, lobe, (_e315 * LTC_OVER_TWO_PI), (_e318 * LTC_OVER_TWO_PI), front, two_sided);
-    return _e321;
+    float _e337 = sum;
+    vec3 _e340 = lobe_sum;
+    vec3 _e343 = ltc_value(surface, lobe, (_e337 * LTC_OVER_TWO_PI), (_e340 * LTC_OVER_TWO_PI), front, two_sided);
+    return _e343;
 }
 
 // Starts a polygon at its first vertex.
@@ -694,16 +702,16 @@ vec3 ltc_edge_from(vec3 origin, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, ve
 // Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
 void ltc_polygon_edge(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, bool closing) {
     vec3 _e10 = ltc_edge_normal(a, b, (b_offset - a_offset));
-    vec3 normal_5 = (closing ? (surface.normal * dot(surface.normal, _e10)) : _e10);
+    vec3 normal_6 = (closing ? (surface.normal * dot(surface.normal, _e10)) : _e10);
     float _e17 = polygon.diffuse;
-    vec3 _e19 = ltc_edge_from(reference, a, a_offset, b, b_offset, normal_5);
+    vec3 _e19 = ltc_edge_from(reference, a, a_offset, b, b_offset, normal_6);
     polygon.diffuse = (_e17 - dot(surface.normal, _e19));
     vec3 _e22 = ltc_transform(lobe, reference);
     vec3 _e23 = ltc_transform(lobe, a);
     vec3 _e24 = ltc_transform(lobe, b);
     vec3 _e25 = ltc_transform(lobe, a_offset);
     vec3 _e26 = ltc_transform(lobe, b_offset);
-    vec3 _e27 = ltc_transform_normal(lobe, normal_5);
+    vec3 _e27 = ltc_transform_normal(lobe, normal_6);
     bool _e28 = ltc_is_above(_e23);
     bool _e29 = ltc_is_above(_e24);
     if ((_e28 && _e29)) {
@@ -757,12 +765,12 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe,
     float _e20 = ltc_extent((b_far - origin));
     float extent = max(_e18, _e20);
     float _e23 = polygon.scale;
-    float scale_1 = min(_e23, (1000000000000.0 / max(extent, 1e-25)));
-    vec3 reference = ((first_far - origin) * scale_1);
-    vec3 a = ((a_far - origin) * scale_1);
-    vec3 b = ((b_far - origin) * scale_1);
-    vec3 a_offset = ((a_far - first_far) * scale_1);
-    vec3 b_offset = ((b_far - first_far) * scale_1);
+    float scale_2 = min(_e23, (1000000000000.0 / max(extent, 1e-25)));
+    vec3 reference = ((first_far - origin) * scale_2);
+    vec3 a = ((a_far - origin) * scale_2);
+    vec3 b = ((b_far - origin) * scale_2);
+    vec3 a_offset = ((a_far - first_far) * scale_2);
+    vec3 b_offset = ((b_far - first_far) * scale_2);
     float _e40 = polygon.facing;
     polygon.facing = (_e40 + dot(cross(a_offset, b_offset), reference));
     polygon.previous = corner;

@@ -19,17 +19,31 @@ pub fn ltc_edge_normal<R: Real>(a: R::Vec3, b: R::Vec3, side: R::Vec3) -> R::Vec
 }
 
 /// The edge integral of the segment between two directions: the angle between the unit vectors `a` and `b`
-/// along the unit normal of their plane. `normal`, of any length, has the direction of a × b.
-pub fn ltc_edge<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3) -> R::Vec3 {
+/// along the unit normal of their plane. `normal` is the cross product of the two vectors before they were
+/// divided by their lengths, `scale` the reciprocal of the product of these.
+pub fn ltc_edge<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3, scale: R) -> R::Vec3 {
+    let squared = normal.dot(normal);
+    let inverse_length = squared.max(R::new(LTC_TINY)).inverse_sqrt();
+    normal * (inverse_length * ltc_angle::<R>(a, b, squared * inverse_length * scale))
+}
+
+/// [`ltc_edge`] for a part of an edge, for which `normal` has the right direction only.
+pub fn ltc_edge_part<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3) -> R::Vec3 {
+    let product = a.cross(b - a);
+    let squared = product.dot(product);
+    let inverse_length = normal.dot(normal).max(R::new(LTC_TINY)).inverse_sqrt();
+    let sine = squared * squared.max(R::new(1e-30)).inverse_sqrt();
+    normal * (inverse_length * ltc_angle::<R>(a, b, sine))
+}
+
+/// The angle between the unit vectors `a` and `b`, whose sine is given.
+pub fn ltc_angle<R: Real>(a: R::Vec3, b: R::Vec3, sine: R) -> R {
     let (zero, one, two) = (R::new(0.0), R::new(1.0), R::new(2.0));
     let chord = b - a;
-    let cross_product = a.cross(chord);
-    let squared = cross_product.dot(cross_product);
-    let sine = squared * squared.max(R::new(1e-30)).inverse_sqrt();
     let k = R::new(0.5) * chord.dot(chord);
-    let acute = sine + sine * ltc_angle_excess(k.min((two - k).max(zero)));
-    let angle = if k > one { R::new(core::f64::consts::PI) - acute } else { acute };
-    normal * (angle * normal.dot(normal).max(R::new(LTC_TINY)).inverse_sqrt())
+    let bounded = sine.min(one);
+    let acute = bounded + bounded * ltc_angle_excess(k.min((two - k).max(zero)));
+    if k > one { R::new(core::f64::consts::PI) - acute } else { acute }
 }
 
 /// The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
@@ -42,18 +56,27 @@ pub fn ltc_edge_about<R: Real>(
     b_offset: R::Vec3,
     normal: R::Vec3,
 ) -> R::Vec3 {
-    let half: R = R::new(0.5);
-    let (a_squared, b_squared) = (a_offset.dot(a_offset), b_offset.dot(b_offset));
+    let near = ltc_edge_near::<R>(reference, a, a_offset, b_offset);
+    if a_offset.dot(a_offset).max(b_offset.dot(b_offset)) < R::new(0.0625) {
+        return near;
+    }
+    let chord = b_offset - a_offset;
+    let near_part = a.cross(chord) * ltc_angle_excess((R::new(0.5) * chord.dot(chord)).min(R::new(1.0)));
+    near - near_part + ltc_edge_part::<R>(a, b, normal) - a.cross(b - a)
+}
+
+/// [`ltc_edge_about`] for offsets that are both shorter than a quarter.
+pub fn ltc_edge_near<R: Real>(
+    reference: R::Vec3,
+    a: R::Vec3,
+    a_offset: R::Vec3,
+    b_offset: R::Vec3,
+) -> R::Vec3 {
     let along = reference.dot(a_offset.cross(b_offset));
-    let across = (a_offset * b_squared - b_offset * a_squared) * half;
-    let common_part = reference * along + reference.cross(across);
-    let part = if a_squared.max(b_squared) < R::new(0.0625) {
-        let chord = b_offset - a_offset;
-        a.cross(chord) * ltc_angle_excess((half * chord.dot(chord)).min(R::new(1.0)))
-    } else {
-        ltc_edge::<R>(a, b, normal) - a.cross(b - a)
-    };
-    common_part + part
+    let across = (a_offset * b_offset.dot(b_offset) - b_offset * a_offset.dot(a_offset)) * R::new(0.5);
+    let chord = b_offset - a_offset;
+    let excess = ltc_angle_excess((R::new(0.5) * chord.dot(chord)).min(R::new(1.0)));
+    reference * along + reference.cross(across) + a.cross(chord) * excess
 }
 
 /// Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -101,50 +124,54 @@ pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R
     if up == [false; 5] {
         return R::Vec3::new(zero, zero, zero);
     }
-    let units = vertices.map(unit::<R>);
-    let (mut starts, mut ends) = (units, units);
-    let mut horizon = R::Vec3::new(zero, zero, zero);
-    if up != [true; 5] {
-        // The last edge that leaves the upper side and the last one that comes back, as in the include;
-        // a convex polygon has one of each.
-        let next = |i: usize| (i + 1) % 5;
-        let (mut leaving, mut entering) = (0, 4);
-        for i in 1..5 {
-            if up[i] & !up[next(i)] {
-                leaving = i;
-            }
-            if up[i] & !up[i - 1] {
-                entering = i - 1;
-            }
-        }
-        let (from, to) = (vertices[leaving], vertices[next(leaving)]);
-        let leave = ltc_crossing::<R>(from, to, normals[leaving]);
-        let (from, to) = (vertices[entering], vertices[next(entering)]);
-        let enter = ltc_crossing::<R>(to, from, -normals[entering]);
-        let horizon_normal = ltc_edge_normal::<R>(leave, enter, enter - leave);
-        let (leave, enter) = (unit::<R>(leave), unit::<R>(enter));
-        ends = core::array::from_fn(|i| match (up[i], up[(i + 4) % 5]) {
-            (true, _) => units[i],
-            (false, true) => leave,
-            (false, false) => enter,
-        });
-        starts = core::array::from_fn(|i| if up[i] { units[i] } else { enter });
-        horizon = ltc_edge::<R>(leave, enter, horizon_normal);
+    let inverses = vertices.map(inverse_length::<R>);
+    let units: [R::Vec3; 5] = core::array::from_fn(|i| vertices[i] * inverses[i]);
+    let next = |i: usize| (i + 1) % 5;
+    if up == [true; 5] {
+        let edge =
+            |i: usize| ltc_edge::<R>(units[i], units[next(i)], normals[i], inverses[i] * inverses[next(i)]);
+        return -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4));
     }
-    let edge = |i: usize| ltc_edge::<R>(starts[i], ends[(i + 1) % 5], normals[i]);
+    // The last edge that leaves the upper side and the last one that comes back, as in the include; a convex
+    // polygon has one of each.
+    let (mut leaving, mut entering) = (0, 4);
+    for i in 1..5 {
+        if up[i] & !up[next(i)] {
+            leaving = i;
+        }
+        if up[i] & !up[i - 1] {
+            entering = i - 1;
+        }
+    }
+    let (from, to) = (vertices[leaving], vertices[next(leaving)]);
+    let leave = ltc_crossing::<R>(from, to, normals[leaving]);
+    let (from, to) = (vertices[entering], vertices[next(entering)]);
+    let enter = ltc_crossing::<R>(to, from, -normals[entering]);
+    let horizon_normal = ltc_edge_normal::<R>(leave, enter, enter - leave);
+    let (leave, enter) = (unit::<R>(leave), unit::<R>(enter));
+    let ends: [R::Vec3; 5] = core::array::from_fn(|i| match (up[i], up[(i + 4) % 5]) {
+        (true, _) => units[i],
+        (false, true) => leave,
+        (false, false) => enter,
+    });
+    let starts: [R::Vec3; 5] = core::array::from_fn(|i| if up[i] { units[i] } else { enter });
+    let horizon = ltc_edge_part::<R>(leave, enter, horizon_normal);
+    let edge = |i: usize| ltc_edge_part::<R>(starts[i], ends[next(i)], normals[i]);
     -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4) + horizon)
 }
 
+/// 1 over the length of `v`.
+fn inverse_length<R: Real>(v: R::Vec3) -> R {
+    v.dot(v).max(R::new(LTC_TINY)).inverse_sqrt()
+}
+
 /// Vector form factor, times 2π and signed, of a pentagon above the horizon from one point `origin` on
-/// or near it and the offsets of its vertices from there.
-pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::Vec3 {
+/// or near it and the offsets of its vertices from there, all much shorter than the distance.
+pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5]) -> R::Vec3 {
     let reference = unit::<R>(origin);
     let offsets = vertices.map(|v| ltc_offset::<R>(origin, reference, origin + v, v));
-    let units = vertices.map(|v| unit::<R>(origin + v));
-    let edge = |i: usize| {
-        let next = (i + 1) % 5;
-        ltc_edge_about::<R>(reference, units[i], offsets[i], units[next], offsets[next], normals[i])
-    };
+    let edge =
+        |i: usize| ltc_edge_near::<R>(reference, reference + offsets[i], offsets[i], offsets[(i + 1) % 5]);
     -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
 }
 
@@ -212,14 +239,20 @@ pub fn ltc_quad<R: Real>(
     let l_normals = normals.map(|normal| ltc_transform_normal(lobe, normal));
     let lowest = l_base.z() + l.iter().fold(l[0].z(), |low, v| low.min(v.z()));
     let sum = if distant {
-        surface.normal.dot(ltc_far_pentagon::<R>(p_a, v, normals))
+        surface.normal.dot(ltc_far_pentagon::<R>(p_a, v))
     } else {
-        let u = v.map(unit::<R>);
-        let edge = |i: usize| ltc_edge::<R>(u[i], u[(i + 1) % 5], normals[i]);
+        let inverses = v.map(inverse_length::<R>);
+        let units: [R::Vec3; 5] = core::array::from_fn(|i| v[i] * inverses[i]);
+        let edge = |i: usize| {
+            let next = (i + 1) % 5;
+            ltc_edge::<R>(units[i], units[next], normals[i], inverses[i] * inverses[next])
+        };
         -surface.normal.dot(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
     };
-    let lobe_sum = if distant & (lowest > zero) {
-        ltc_far_pentagon::<R>(l_base, l, l_normals)
+    let lobe_size = l.iter().fold(zero, |size, v| size.max(v.dot(*v)));
+    let small = lobe_size < R::new(0.0625) * l_base.dot(l_base);
+    let lobe_sum = if distant & (lowest > zero) & small {
+        ltc_far_pentagon::<R>(l_base, l)
     } else {
         ltc_pentagon::<R>(l.map(|v| l_base + v), l_normals)
     };
