@@ -60,9 +60,13 @@ pub struct Estimate {
 /// accuracy to about ε/s with ε = 2.2e-16; the estimates include that. What they cannot know is a peak of `brdf` that
 /// lies neither near the mirror direction nor wider than [`Brdf::width`].
 pub fn polygon(brdf: &dyn Brdf, view: DVec3, points: &[DVec3], two_sided: bool, tolerance: f64) -> Truth {
+    let dark = Truth { converged: true, ..Truth::default() };
+    if points.iter().all(|point| point.z <= 0.0) {
+        return dark;
+    }
     match Outline::new(points) {
         Some(outline) if two_sided || outline.faces_origin() => solid_angle(brdf, view, &outline, tolerance),
-        _ => Truth { converged: true, ..Truth::default() },
+        _ => dark,
     }
 }
 
