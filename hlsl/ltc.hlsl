@@ -343,14 +343,20 @@ float3 ltc_edge_part(float3 a, float3 b, float3 normal)
     return (normal * (inverse_length * _e14));
 }
 
+// The edge integral of a short edge from the unit vector `a` along `chord`, less the cross product of its ends.
+float3 ltc_edge_excess(float3 a, float3 chord)
+{
+    const float _e8 = ltc_angle_excess(min((0.5 * dot(chord, chord)), 1.0));
+    return (cross(a, chord) * _e8);
+}
+
 // ltc_edge_about for offsets that are both shorter than a quarter.
 float3 ltc_edge_near(float3 reference, float3 a, float3 a_offset, float3 b_offset)
 {
     float along = dot(reference, cross(a_offset, b_offset));
     float3 across = (0.5 * ((a_offset * dot(b_offset, b_offset)) - (b_offset * dot(a_offset, a_offset))));
-    float3 chord = (b_offset - a_offset);
-    const float _e19 = ltc_angle_excess(min((0.5 * dot(chord, chord)), 1.0));
-    return (((reference * along) + cross(reference, across)) + (cross(a, chord) * _e19));
+    const float3 _e17 = ltc_edge_excess(a, (b_offset - a_offset));
+    return (((reference * along) + cross(reference, across)) + _e17);
 }
 
 // The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
@@ -368,11 +374,9 @@ float3 ltc_edge_about(float3 reference, float3 a, float3 a_offset, float3 b, flo
     if ((max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < 0.0625)) {
         return _e6;
     }
-    float3 near_chord = (b_offset - a_offset);
-    const float _e19 = ltc_angle_excess(min((0.5 * dot(near_chord, near_chord)), 1.0));
-    float3 near_part = (cross(a, near_chord) * _e19);
-    const float3 _e22 = ltc_edge_part(a, b, normal);
-    return (((_e6 - near_part) + _e22) - cross(a, (b - a)));
+    const float3 _e13 = ltc_edge_excess(a, (b_offset - a_offset));
+    const float3 _e15 = ltc_edge_part(a, b, normal);
+    return (((_e6 - _e13) + _e15) - cross(a, (b - a)));
 }
 
 // Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -494,12 +498,20 @@ float3 ltc_far_pentagon(float3 origin, float3 a, float3 b, float3 c, float3 d, f
     const float3 _e16 = ltc_offset(origin, reference, (origin + c), c);
     const float3 _e18 = ltc_offset(origin, reference, (origin + d), d);
     const float3 _e20 = ltc_offset(origin, reference, (origin + e), e);
-    const float3 _e22 = ltc_edge_near(reference, (reference + _e12), _e12, _e14);
-    const float3 _e24 = ltc_edge_near(reference, (reference + _e14), _e14, _e16);
-    const float3 _e27 = ltc_edge_near(reference, (reference + _e16), _e16, _e18);
-    const float3 _e30 = ltc_edge_near(reference, (reference + _e18), _e18, _e20);
-    const float3 _e33 = ltc_edge_near(reference, (reference + _e20), _e20, _e12);
-    return -(((((_e22 + _e24) + _e27) + _e30) + _e33));
+    float a_squared = dot(_e12, _e12);
+    float b_squared = dot(_e14, _e14);
+    float c_squared = dot(_e16, _e16);
+    float d_squared = dot(_e18, _e18);
+    float e_squared = dot(_e20, _e20);
+    float3 area = ((((cross(_e12, _e14) + cross(_e14, _e16)) + cross(_e16, _e18)) + cross(_e18, _e20)) + cross(_e20, _e12));
+    float3 across = (((((_e12 * (b_squared - e_squared)) + (_e14 * (c_squared - a_squared))) + (_e16 * (d_squared - b_squared))) + (_e18 * (e_squared - c_squared))) + (_e20 * (a_squared - d_squared)));
+    const float3 _e51 = ltc_edge_excess((reference + _e12), (_e14 - _e12));
+    const float3 _e54 = ltc_edge_excess((reference + _e14), (_e16 - _e14));
+    const float3 _e58 = ltc_edge_excess((reference + _e16), (_e18 - _e16));
+    const float3 _e62 = ltc_edge_excess((reference + _e18), (_e20 - _e18));
+    const float3 _e66 = ltc_edge_excess((reference + _e20), (_e12 - _e20));
+    float3 excess = ((((_e51 + _e54) + _e58) + _e62) + _e66);
+    return -((((reference * dot(reference, area)) + cross(reference, (0.5 * across))) + excess));
 }
 
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,

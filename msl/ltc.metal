@@ -388,6 +388,15 @@ metal::float3 ltc_edge_part(
     return normal * (inverse_length * _e14);
 }
 
+// The edge integral of a short edge from the unit vector `a` along `chord`, less the cross product of its ends.
+metal::float3 ltc_edge_excess(
+    metal::float3 a,
+    metal::float3 chord
+) {
+    float _e8 = ltc_angle_excess(metal::min(0.5 * metal::dot(chord, chord), 1.0));
+    return metal::cross(a, chord) * _e8;
+}
+
 // ltc_edge_about for offsets that are both shorter than a quarter.
 metal::float3 ltc_edge_near(
     metal::float3 reference,
@@ -397,9 +406,8 @@ metal::float3 ltc_edge_near(
 ) {
     float along = metal::dot(reference, metal::cross(a_offset, b_offset));
     metal::float3 across = 0.5 * ((a_offset * metal::dot(b_offset, b_offset)) - (b_offset * metal::dot(a_offset, a_offset)));
-    metal::float3 chord = b_offset - a_offset;
-    float _e19 = ltc_angle_excess(metal::min(0.5 * metal::dot(chord, chord), 1.0));
-    return ((reference * along) + metal::cross(reference, across)) + (metal::cross(a, chord) * _e19);
+    metal::float3 _e17 = ltc_edge_excess(a, b_offset - a_offset);
+    return ((reference * along) + metal::cross(reference, across)) + _e17;
 }
 
 // The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
@@ -423,11 +431,9 @@ metal::float3 ltc_edge_about(
     if (metal::max(metal::dot(a_offset, a_offset), metal::dot(b_offset, b_offset)) < 0.0625) {
         return _e6;
     }
-    metal::float3 near_chord = b_offset - a_offset;
-    float _e19 = ltc_angle_excess(metal::min(0.5 * metal::dot(near_chord, near_chord), 1.0));
-    metal::float3 near_part = metal::cross(a, near_chord) * _e19;
-    metal::float3 _e22 = ltc_edge_part(a, b, normal);
-    return ((_e6 - near_part) + _e22) - metal::cross(a, b - a);
+    metal::float3 _e13 = ltc_edge_excess(a, b_offset - a_offset);
+    metal::float3 _e15 = ltc_edge_part(a, b, normal);
+    return ((_e6 - _e13) + _e15) - metal::cross(a, b - a);
 }
 
 // Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -573,12 +579,20 @@ metal::float3 ltc_far_pentagon(
     metal::float3 _e16 = ltc_offset(origin, reference, origin + c, c);
     metal::float3 _e18 = ltc_offset(origin, reference, origin + d, d);
     metal::float3 _e20 = ltc_offset(origin, reference, origin + e, e);
-    metal::float3 _e22 = ltc_edge_near(reference, reference + _e12, _e12, _e14);
-    metal::float3 _e24 = ltc_edge_near(reference, reference + _e14, _e14, _e16);
-    metal::float3 _e27 = ltc_edge_near(reference, reference + _e16, _e16, _e18);
-    metal::float3 _e30 = ltc_edge_near(reference, reference + _e18, _e18, _e20);
-    metal::float3 _e33 = ltc_edge_near(reference, reference + _e20, _e20, _e12);
-    return -(((((_e22 + _e24) + _e27) + _e30) + _e33));
+    float a_squared = metal::dot(_e12, _e12);
+    float b_squared = metal::dot(_e14, _e14);
+    float c_squared = metal::dot(_e16, _e16);
+    float d_squared = metal::dot(_e18, _e18);
+    float e_squared = metal::dot(_e20, _e20);
+    metal::float3 area = (((metal::cross(_e12, _e14) + metal::cross(_e14, _e16)) + metal::cross(_e16, _e18)) + metal::cross(_e18, _e20)) + metal::cross(_e20, _e12);
+    metal::float3 across = ((((_e12 * (b_squared - e_squared)) + (_e14 * (c_squared - a_squared))) + (_e16 * (d_squared - b_squared))) + (_e18 * (e_squared - c_squared))) + (_e20 * (a_squared - d_squared));
+    metal::float3 _e51 = ltc_edge_excess(reference + _e12, _e14 - _e12);
+    metal::float3 _e54 = ltc_edge_excess(reference + _e14, _e16 - _e14);
+    metal::float3 _e58 = ltc_edge_excess(reference + _e16, _e18 - _e16);
+    metal::float3 _e62 = ltc_edge_excess(reference + _e18, _e20 - _e18);
+    metal::float3 _e66 = ltc_edge_excess(reference + _e20, _e12 - _e20);
+    metal::float3 excess = (((_e51 + _e54) + _e58) + _e62) + _e66;
+    return -((((reference * metal::dot(reference, area)) + metal::cross(reference, 0.5 * across)) + excess));
 }
 
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,

@@ -339,8 +339,7 @@ fn ltc_edge_about(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: ve
         return near;
     }
     // Far from the reference the vectors hold the digits of their difference, not the offsets.
-    let near_chord = b_offset - a_offset;
-    let near_part = cross(a, near_chord) * ltc_angle_excess(min(0.5 * dot(near_chord, near_chord), 1.0));
+    let near_part = ltc_edge_excess(a, b_offset - a_offset);
     return near - near_part + ltc_edge_part(a, b, normal) - cross(a, b - a);
 }
 
@@ -348,9 +347,12 @@ fn ltc_edge_about(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: ve
 fn ltc_edge_near(reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b_offset: vec3<f32>) -> vec3<f32> {
     let along = dot(reference, cross(a_offset, b_offset));
     let across = 0.5 * (a_offset * dot(b_offset, b_offset) - b_offset * dot(a_offset, a_offset));
-    let chord = b_offset - a_offset;
-    let excess = ltc_angle_excess(min(0.5 * dot(chord, chord), 1.0));
-    return reference * along + cross(reference, across) + cross(a, chord) * excess;
+    return reference * along + cross(reference, across) + ltc_edge_excess(a, b_offset - a_offset);
+}
+
+/// The edge integral of a short edge from the unit vector `a` along `chord`, less the cross product of its ends.
+fn ltc_edge_excess(a: vec3<f32>, chord: vec3<f32>) -> vec3<f32> {
+    return cross(a, chord) * ltc_angle_excess(min(0.5 * dot(chord, chord), 1.0));
 }
 
 /// Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -463,11 +465,20 @@ fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
     let c_offset = ltc_offset(origin, reference, origin + c, c);
     let d_offset = ltc_offset(origin, reference, origin + d, d);
     let e_offset = ltc_offset(origin, reference, origin + e, e);
-    return -(ltc_edge_near(reference, reference + a_offset, a_offset, b_offset)
-        + ltc_edge_near(reference, reference + b_offset, b_offset, c_offset)
-        + ltc_edge_near(reference, reference + c_offset, c_offset, d_offset)
-        + ltc_edge_near(reference, reference + d_offset, d_offset, e_offset)
-        + ltc_edge_near(reference, reference + e_offset, e_offset, a_offset));
+    // The sum of ltc_edge_near over the edges, with what is linear in the reference taken out of it.
+    let a_squared = dot(a_offset, a_offset);
+    let b_squared = dot(b_offset, b_offset);
+    let c_squared = dot(c_offset, c_offset);
+    let d_squared = dot(d_offset, d_offset);
+    let e_squared = dot(e_offset, e_offset);
+    let area = cross(a_offset, b_offset) + cross(b_offset, c_offset) + cross(c_offset, d_offset) + cross(d_offset, e_offset)
+        + cross(e_offset, a_offset);
+    let across = a_offset * (b_squared - e_squared) + b_offset * (c_squared - a_squared) + c_offset * (d_squared - b_squared)
+        + d_offset * (e_squared - c_squared) + e_offset * (a_squared - d_squared);
+    let excess = ltc_edge_excess(reference + a_offset, b_offset - a_offset) + ltc_edge_excess(reference + b_offset, c_offset - b_offset)
+        + ltc_edge_excess(reference + c_offset, d_offset - c_offset) + ltc_edge_excess(reference + d_offset, e_offset - d_offset)
+        + ltc_edge_excess(reference + e_offset, a_offset - e_offset);
+    return -(reference * dot(reference, area) + cross(reference, 0.5 * across) + excess);
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,

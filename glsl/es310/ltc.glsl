@@ -324,13 +324,18 @@ vec3 ltc_edge_part(vec3 a, vec3 b, vec3 normal) {
     return (normal * (inverse_length * _e14));
 }
 
+// The edge integral of a short edge from the unit vector `a` along `chord`, less the cross product of its ends.
+vec3 ltc_edge_excess(vec3 a, vec3 chord) {
+    float _e8 = ltc_angle_excess(min((0.5 * dot(chord, chord)), 1.0));
+    return (cross(a, chord) * _e8);
+}
+
 // ltc_edge_about for offsets that are both shorter than a quarter.
 vec3 ltc_edge_near(vec3 reference, vec3 a, vec3 a_offset, vec3 b_offset) {
     float along = dot(reference, cross(a_offset, b_offset));
     vec3 across = (0.5 * ((a_offset * dot(b_offset, b_offset)) - (b_offset * dot(a_offset, a_offset))));
-    vec3 chord = (b_offset - a_offset);
-    float _e19 = ltc_angle_excess(min((0.5 * dot(chord, chord)), 1.0));
-    return (((reference * along) + cross(reference, across)) + (cross(a, chord) * _e19));
+    vec3 _e17 = ltc_edge_excess(a, (b_offset - a_offset));
+    return (((reference * along) + cross(reference, across)) + _e17);
 }
 
 // The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
@@ -347,11 +352,9 @@ vec3 ltc_edge_about(vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset
     if ((max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < 0.0625)) {
         return _e6;
     }
-    vec3 near_chord = (b_offset - a_offset);
-    float _e19 = ltc_angle_excess(min((0.5 * dot(near_chord, near_chord)), 1.0));
-    vec3 near_part = (cross(a, near_chord) * _e19);
-    vec3 _e22 = ltc_edge_part(a, b, normal);
-    return (((_e6 - near_part) + _e22) - cross(a, (b - a)));
+    vec3 _e13 = ltc_edge_excess(a, (b_offset - a_offset));
+    vec3 _e15 = ltc_edge_part(a, b, normal);
+    return (((_e6 - _e13) + _e15) - cross(a, (b - a)));
 }
 
 // Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -467,12 +470,20 @@ vec3 ltc_far_pentagon(vec3 origin, vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
     vec3 _e16 = ltc_offset(origin, reference, (origin + c), c);
     vec3 _e18 = ltc_offset(origin, reference, (origin + d), d);
     vec3 _e20 = ltc_offset(origin, reference, (origin + e), e);
-    vec3 _e22 = ltc_edge_near(reference, (reference + _e12), _e12, _e14);
-    vec3 _e24 = ltc_edge_near(reference, (reference + _e14), _e14, _e16);
-    vec3 _e27 = ltc_edge_near(reference, (reference + _e16), _e16, _e18);
-    vec3 _e30 = ltc_edge_near(reference, (reference + _e18), _e18, _e20);
-    vec3 _e33 = ltc_edge_near(reference, (reference + _e20), _e20, _e12);
-    return -(((((_e22 + _e24) + _e27) + _e30) + _e33));
+    float a_squared = dot(_e12, _e12);
+    float b_squared = dot(_e14, _e14);
+    float c_squared = dot(_e16, _e16);
+    float d_squared = dot(_e18, _e18);
+    float e_squared = dot(_e20, _e20);
+    vec3 area = ((((cross(_e12, _e14) + cross(_e14, _e16)) + cross(_e16, _e18)) + cross(_e18, _e20)) + cross(_e20, _e12));
+    vec3 across = (((((_e12 * (b_squared - e_squared)) + (_e14 * (c_squared - a_squared))) + (_e16 * (d_squared - b_squared))) + (_e18 * (e_squared - c_squared))) + (_e20 * (a_squared - d_squared)));
+    vec3 _e51 = ltc_edge_excess((reference + _e12), (_e14 - _e12));
+    vec3 _e54 = ltc_edge_excess((reference + _e14), (_e16 - _e14));
+    vec3 _e58 = ltc_edge_excess((reference + _e16), (_e18 - _e16));
+    vec3 _e62 = ltc_edge_excess((reference + _e18), (_e20 - _e18));
+    vec3 _e66 = ltc_edge_excess((reference + _e20), (_e12 - _e20));
+    vec3 excess = ((((_e51 + _e54) + _e58) + _e62) + _e66);
+    return -((((reference * dot(reference, area)) + cross(reference, (0.5 * across))) + excess));
 }
 
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,

@@ -60,8 +60,7 @@ pub fn ltc_edge_about<R: Real>(
     if a_offset.dot(a_offset).max(b_offset.dot(b_offset)) < R::new(0.0625) {
         return near;
     }
-    let chord = b_offset - a_offset;
-    let near_part = a.cross(chord) * ltc_angle_excess((R::new(0.5) * chord.dot(chord)).min(R::new(1.0)));
+    let near_part = ltc_edge_excess::<R>(a, b_offset - a_offset);
     near - near_part + ltc_edge_part::<R>(a, b, normal) - a.cross(b - a)
 }
 
@@ -74,9 +73,13 @@ pub fn ltc_edge_near<R: Real>(
 ) -> R::Vec3 {
     let along = reference.dot(a_offset.cross(b_offset));
     let across = (a_offset * b_offset.dot(b_offset) - b_offset * a_offset.dot(a_offset)) * R::new(0.5);
-    let chord = b_offset - a_offset;
-    let excess = ltc_angle_excess((R::new(0.5) * chord.dot(chord)).min(R::new(1.0)));
-    reference * along + reference.cross(across) + a.cross(chord) * excess
+    reference * along + reference.cross(across) + ltc_edge_excess::<R>(a, b_offset - a_offset)
+}
+
+/// The edge integral of a short edge from the unit vector `a` along `chord`, less the cross product of its
+/// ends.
+pub fn ltc_edge_excess<R: Real>(a: R::Vec3, chord: R::Vec3) -> R::Vec3 {
+    a.cross(chord) * ltc_angle_excess((R::new(0.5) * chord.dot(chord)).min(R::new(1.0)))
 }
 
 /// Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
@@ -170,9 +173,15 @@ fn inverse_length<R: Real>(v: R::Vec3) -> R {
 pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5]) -> R::Vec3 {
     let reference = unit::<R>(origin);
     let offsets = vertices.map(|v| ltc_offset::<R>(origin, reference, origin + v, v));
-    let edge =
-        |i: usize| ltc_edge_near::<R>(reference, reference + offsets[i], offsets[i], offsets[(i + 1) % 5]);
-    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
+    let squares = offsets.map(|offset| offset.dot(offset));
+    let (next, last) = (|i: usize| (i + 1) % 5, |i: usize| (i + 4) % 5);
+    let product = |i: usize| offsets[i].cross(offsets[next(i)]);
+    let area = product(0) + product(1) + product(2) + product(3) + product(4);
+    let across = |i: usize| offsets[i] * (squares[next(i)] - squares[last(i)]);
+    let across = across(0) + across(1) + across(2) + across(3) + across(4);
+    let excess = |i: usize| ltc_edge_excess::<R>(reference + offsets[i], offsets[next(i)] - offsets[i]);
+    let excess = excess(0) + excess(1) + excess(2) + excess(3) + excess(4);
+    -(reference * reference.dot(area) + reference.cross(across * R::new(0.5)) + excess)
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light; see the include for its domain
