@@ -320,7 +320,7 @@ fn ltc_angle(a: vec3<f32>, b: vec3<f32>, sine: f32) -> f32 {
     let chord = b - a;
     let k = 0.5 * dot(chord, chord);
     let bounded = min(sine, 1.0);
-    let acute = bounded + bounded * ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
+    let acute = bounded + bounded * ltc_angle_excess(min(k, saturate(2.0 - k)));
     return select(acute, LTC_PI - acute, k > 1.0);
 }
 
@@ -366,6 +366,15 @@ fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, target_point: vec3<f32>, 
     // With points far apart the subtraction loses nothing, and `offset` may be the less precise.
     let far = target_point * inverse_length - reference;
     return select(far, near, dot(offset, offset) < 0.0625 * dot(origin, origin));
+}
+
+/// ltc_offset for an offset much shorter than `origin`.
+fn ltc_far_offset(origin: vec3<f32>, reference: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
+    let target_point = origin + offset;
+    let inverse_length = inverseSqrt(max(dot(target_point, target_point), LTC_TINY));
+    let length_sum = dot(target_point, target_point) * inverse_length + dot(origin, reference);
+    let length_difference = dot(offset, origin + target_point) / max(length_sum, LTC_TINY);
+    return (offset - reference * length_difference) * inverse_length;
 }
 
 /// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
@@ -457,14 +466,20 @@ fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<
 }
 
 /// Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-/// on or near it and the offsets of its vertices from there, all much shorter than the distance.
-fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>) -> vec3<f32> {
+/// on or near it and the offsets of its vertices from there, all much shorter than the distance; `five` tells
+/// whether `d` and `e` differ.
+fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, five: bool) -> vec3<f32> {
     let reference = origin * inverseSqrt(max(dot(origin, origin), LTC_TINY));
-    let a_offset = ltc_offset(origin, reference, origin + a, a);
-    let b_offset = ltc_offset(origin, reference, origin + b, b);
-    let c_offset = ltc_offset(origin, reference, origin + c, c);
-    let d_offset = ltc_offset(origin, reference, origin + d, d);
-    let e_offset = ltc_offset(origin, reference, origin + e, e);
+    let a_offset = ltc_far_offset(origin, reference, a);
+    let b_offset = ltc_far_offset(origin, reference, b);
+    let c_offset = ltc_far_offset(origin, reference, c);
+    let d_offset = ltc_far_offset(origin, reference, d);
+    var e_offset = d_offset;
+    var fifth_excess = vec3<f32>(0.0);
+    if (five) {
+        e_offset = ltc_far_offset(origin, reference, e);
+        fifth_excess = ltc_edge_excess(reference + d_offset, e_offset - d_offset);
+    }
     // The sum of ltc_edge_near over the edges, with what is linear in the reference taken out of it.
     let a_squared = dot(a_offset, a_offset);
     let b_squared = dot(b_offset, b_offset);
@@ -476,7 +491,7 @@ fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
     let across = a_offset * (b_squared - e_squared) + b_offset * (c_squared - a_squared) + c_offset * (d_squared - b_squared)
         + d_offset * (e_squared - c_squared) + e_offset * (a_squared - d_squared);
     let excess = ltc_edge_excess(reference + a_offset, b_offset - a_offset) + ltc_edge_excess(reference + b_offset, c_offset - b_offset)
-        + ltc_edge_excess(reference + c_offset, d_offset - c_offset) + ltc_edge_excess(reference + d_offset, e_offset - d_offset)
+        + ltc_edge_excess(reference + c_offset, d_offset - c_offset) + fifth_excess
         + ltc_edge_excess(reference + e_offset, a_offset - e_offset);
     return -(reference * dot(reference, area) + cross(reference, 0.5 * across) + excess);
 }
@@ -505,6 +520,9 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let side_d = (d * LTC_HEADROOM - a_far) * scale;
     let p_a = a_full * scale;
     let front = dot(cross(side_c, side_d - side_b), p_a) < 0.0;
+    if (!(front | two_sided)) {
+        return vec3<f32>(0.0);
+    }
 
     // What is cut at the horizon: the vertices of a near light, the offsets of a distant one's from its
     // first vertex, with the heights of the vertices over the surface.
@@ -585,7 +603,7 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let lowest = l_base.z + min(min(min(l_a.z, l_b.z), min(l_c.z, l_d.z)), l_e.z);
     var sum: f32;
     if (distant) {
-        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e));
+        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e, clipped));
     } else {
         let a_inverse = inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
         let b_inverse = inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
@@ -608,7 +626,7 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     // The lobe's space stretches: there a distant light may be near.
     let lobe_size = max(max(max(dot(l_a, l_a), dot(l_b, l_b)), max(dot(l_c, l_c), dot(l_d, l_d))), dot(l_e, l_e));
     if (distant & (lowest > 0.0) & (lobe_size < 0.0625 * dot(l_base, l_base))) {
-        lobe_sum = ltc_far_pentagon(l_base, l_a, l_b, l_c, l_d, l_e);
+        lobe_sum = ltc_far_pentagon(l_base, l_a, l_b, l_c, l_d, l_e, clipped);
     } else {
         lobe_sum = ltc_pentagon(l_base + l_a, l_base + l_b, l_base + l_c, l_base + l_d, l_base + l_e, m_a, m_b, m_c, m_d, m_e, clipped);
     }
@@ -671,9 +689,15 @@ fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
     let b_height = select(dot(surface.normal, b), height + dot(surface.normal, b_offset), near);
     let a_up = a_height > 0.0;
     let b_up = b_height > 0.0;
-    if (a_up & b_up) {
-        ltc_polygon_edge(polygon, surface, lobe, reference, a, a_offset, b, b_offset, false);
-    } else if (a_up | b_up) {
+    if (!(a_up | b_up)) {
+        return;
+    }
+    // What is left of the edge, added at one place: compilers copy a function to each of its calls.
+    var start = a;
+    var start_offset = a_offset;
+    var end = b;
+    var end_offset = b_offset;
+    if (!(a_up & b_up)) {
         let above = select(b, a, a_up);
         let below = select(a, b, a_up);
         let above_offset = select(b_offset, a_offset, a_up);
@@ -692,9 +716,12 @@ fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
             (*polygon).surface_crossing = crossing;
             (*polygon).surface_crossing_offset = crossing_offset;
         }
-        ltc_polygon_edge(polygon, surface, lobe, reference, select(crossing, a, a_up), select(crossing_offset, a_offset, a_up),
-            select(b, crossing, a_up), select(b_offset, crossing_offset, a_up), false);
+        start = select(crossing, a, a_up);
+        start_offset = select(crossing_offset, a_offset, a_up);
+        end = select(b, crossing, a_up);
+        end_offset = select(b_offset, crossing_offset, a_up);
     }
+    ltc_polygon_edge(polygon, surface, lobe, reference, start, start_offset, end, end_offset, false);
 }
 
 /// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added. Its
@@ -721,9 +748,14 @@ fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lob
     let m_normal = ltc_transform_normal(lobe, normal);
     let a_up = ltc_is_above(m_a);
     let b_up = ltc_is_above(m_b);
-    if (a_up & b_up) {
-        (*polygon).lobe_sum -= ltc_edge_from(m, m_a, m_a_offset, m_b, m_b_offset, m_normal);
-    } else if (a_up | b_up) {
+    if (!(a_up | b_up)) {
+        return;
+    }
+    var start = m_a;
+    var start_offset = m_a_offset;
+    var end = m_b;
+    var end_offset = m_b_offset;
+    if (!(a_up & b_up)) {
         let above = select(m_b, m_a, a_up);
         let below = select(m_a, m_b, a_up);
         let above_offset = select(m_b_offset, m_a_offset, a_up);
@@ -734,18 +766,21 @@ fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lob
         if ((*polygon).lobe_crossed > 0.0) {
             let base = (*polygon).lobe_crossing;
             let base_offset = (*polygon).lobe_crossing_offset;
-            let start = select(base, crossing, a_up);
-            let end = select(crossing, base, a_up);
-            (*polygon).lobe_sum -= ltc_edge_from(m, start, select(base_offset, crossing_offset, a_up), end,
-                select(crossing_offset, base_offset, a_up), ltc_edge_normal(start, end, end - start));
+            let horizon_start = select(base, crossing, a_up);
+            let horizon_end = select(crossing, base, a_up);
+            (*polygon).lobe_sum -= ltc_edge_from(m, horizon_start, select(base_offset, crossing_offset, a_up), horizon_end,
+                select(crossing_offset, base_offset, a_up), ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start));
         } else {
             (*polygon).lobe_crossed = 1.0;
             (*polygon).lobe_crossing = crossing;
             (*polygon).lobe_crossing_offset = crossing_offset;
         }
-        (*polygon).lobe_sum -= ltc_edge_from(m, select(crossing, m_a, a_up), select(crossing_offset, m_a_offset, a_up),
-            select(m_b, crossing, a_up), select(m_b_offset, crossing_offset, a_up), m_normal);
+        start = select(crossing, m_a, a_up);
+        start_offset = select(crossing_offset, m_a_offset, a_up);
+        end = select(m_b, crossing, a_up);
+        end_offset = select(m_b_offset, crossing_offset, a_up);
     }
+    (*polygon).lobe_sum -= ltc_edge_from(m, start, start_offset, end, end_offset, m_normal);
 }
 
 /// ltc_edge_about for points and their offsets from `origin`. A point far from `origin` may as well be

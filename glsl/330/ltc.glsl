@@ -294,8 +294,8 @@ float ltc_angle(vec3 a, vec3 b, float sine) {
     vec3 chord = (b - a);
     float k = (0.5 * dot(chord, chord));
     float bounded = min(sine, 1.0);
-    float _e14 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
-    float acute = (bounded + (bounded * _e14));
+    float _e13 = ltc_angle_excess(min(k, clamp((2.0 - k), 0.0, 1.0)));
+    float acute = (bounded + (bounded * _e13));
     return ((k > 1.0) ? (LTC_PI - acute) : acute);
 }
 
@@ -367,6 +367,15 @@ vec3 ltc_offset(vec3 origin, vec3 reference, vec3 target_point, vec3 offset) {
     vec3 near = ((offset - (reference * length_difference)) * inverse_length);
     vec3 far = ((target_point * inverse_length) - reference);
     return ((dot(offset, offset) < (0.0625 * dot(origin, origin))) ? near : far);
+}
+
+// ltc_offset for an offset much shorter than `origin`.
+vec3 ltc_far_offset(vec3 origin, vec3 reference, vec3 offset) {
+    vec3 target_point = (origin + offset);
+    float inverse_length = inversesqrt(max(dot(target_point, target_point), LTC_TINY));
+    float length_sum = ((dot(target_point, target_point) * inverse_length) + dot(origin, reference));
+    float length_difference = (dot(offset, (origin + target_point)) / max(length_sum, LTC_TINY));
+    return ((offset - (reference * length_difference)) * inverse_length);
 }
 
 // Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
@@ -462,27 +471,44 @@ vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_
 }
 
 // Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-// on or near it and the offsets of its vertices from there, all much shorter than the distance.
-vec3 ltc_far_pentagon(vec3 origin, vec3 a, vec3 b, vec3 c, vec3 d, vec3 e) {
+// on or near it and the offsets of its vertices from there, all much shorter than the distance; `five` tells
+// whether `d` and `e` differ.
+vec3 ltc_far_pentagon(vec3 origin, vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, bool five) {
+    vec3 e_offset = vec3(0.0);
+    vec3 fifth_excess = vec3(0.0);
     vec3 reference = (origin * inversesqrt(max(dot(origin, origin), LTC_TINY)));
-    vec3 _e12 = ltc_offset(origin, reference, (origin + a), a);
-    vec3 _e14 = ltc_offset(origin, reference, (origin + b), b);
-    vec3 _e16 = ltc_offset(origin, reference, (origin + c), c);
-    vec3 _e18 = ltc_offset(origin, reference, (origin + d), d);
-    vec3 _e20 = ltc_offset(origin, reference, (origin + e), e);
+    vec3 _e12 = ltc_far_offset(origin, reference, a);
+    vec3 _e13 = ltc_far_offset(origin, reference, b);
+    vec3 _e14 = ltc_far_offset(origin, reference, c);
+    vec3 _e15 = ltc_far_offset(origin, reference, d);
+    e_offset = _e15;
+    if (five) {
+        vec3 _e20 = ltc_far_offset(origin, reference, e);
+        e_offset = _e20;
+        vec3 _e22 = e_offset;
+        vec3 _e24 = ltc_edge_excess((reference + _e15), (_e22 - _e15));
+        fifth_excess = _e24;
+    }
     float a_squared = dot(_e12, _e12);
-    float b_squared = dot(_e14, _e14);
-    float c_squared = dot(_e16, _e16);
-    float d_squared = dot(_e18, _e18);
-    float e_squared = dot(_e20, _e20);
-    vec3 area = ((((cross(_e12, _e14) + cross(_e14, _e16)) + cross(_e16, _e18)) + cross(_e18, _e20)) + cross(_e20, _e12));
-    vec3 across = (((((_e12 * (b_squared - e_squared)) + (_e14 * (c_squared - a_squared))) + (_e16 * (d_squared - b_squared))) + (_e18 * (e_squared - c_squared))) + (_e20 * (a_squared - d_squared)));
-    vec3 _e51 = ltc_edge_excess((reference + _e12), (_e14 - _e12));
-    vec3 _e54 = ltc_edge_excess((reference + _e14), (_e16 - _e14));
-    vec3 _e58 = ltc_edge_excess((reference + _e16), (_e18 - _e16));
-    vec3 _e62 = ltc_edge_excess((reference + _e18), (_e20 - _e18));
-    vec3 _e66 = ltc_edge_excess((reference + _e20), (_e12 - _e20));
-    vec3 excess = ((((_e51 + _e54) + _e58) + _e62) + _e66);
+    float b_squared = dot(_e13, _e13);
+    float c_squared = dot(_e14, _e14);
+    float d_squared = dot(_e15, _e15);
+    vec3 _e29 = e_offset;
+    vec3 _e30 = e_offset;
+    float e_squared = dot(_e29, _e30);
+    vec3 _e37 = e_offset;
+    vec3 _e40 = e_offset;
+    vec3 area = ((((cross(_e12, _e13) + cross(_e13, _e14)) + cross(_e14, _e15)) + cross(_e15, _e37)) + cross(_e40, _e12));
+    vec3 _e54 = e_offset;
+    vec3 across = (((((_e12 * (b_squared - e_squared)) + (_e13 * (c_squared - a_squared))) + (_e14 * (d_squared - b_squared))) + (_e15 * (e_squared - c_squared))) + (_e54 * (a_squared - d_squared)));
+    vec3 _e60 = ltc_edge_excess((reference + _e12), (_e13 - _e12));
+    vec3 _e63 = ltc_edge_excess((reference + _e13), (_e14 - _e13));
+    vec3 _e67 = ltc_edge_excess((reference + _e14), (_e15 - _e14));
+    vec3 _e69 = fifth_excess;
+    vec3 _e71 = e_offset;
+    vec3 _e73 = e_offset;
+    vec3 _e75 = ltc_edge_excess((reference + _e71), (_e12 - _e73));
+    vec3 excess = ((((_e60 + _e63) + _e67) + _e69) + _e75);
     return -((((reference * dot(reference, area)) + cross(reference, (0.5 * across))) + excess));
 }
 
@@ -521,6 +547,9 @@ vec3 ltc_quad(LtcSurface surface, LtcLobe lobe, vec3 a, vec3 b, vec3 c, vec3 d, 
     vec3 side_d = (((d * LTC_HEADROOM) - a_far) * scale);
     vec3 p_a = (a_full * scale);
     bool front = (dot(cross(side_c, (side_d - side_b)), p_a) < 0.0);
+    if (!((front || two_sided))) {
+        return vec3(0.0);
+    }
     float size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
     bool distant = (size_squared < (0.0625 * dot(p_a, p_a)));
     vec3 p_b = (distant ? side_b : (b_full * scale));
@@ -573,108 +602,108 @@ vec3 ltc_quad(LtcSurface surface, LtcLobe lobe, vec3 a, vec3 b, vec3 c, vec3 d, 
         v_e = (q_a + ((q_d - q_a) * (h.x / max((h.x - h.w), LTC_TINY))));
     }
     vec3 base = (distant ? p_a : vec3(0.0));
-    vec3 _e172 = v_a;
-    vec3 _e174 = v_b;
-    vec3 _e176 = v_b;
-    vec3 _e177 = v_a;
-    vec3 _e179 = ltc_edge_normal((base + _e172), (base + _e174), (_e176 - _e177));
+    vec3 _e176 = v_a;
+    vec3 _e178 = v_b;
     vec3 _e180 = v_b;
-    vec3 _e182 = v_c;
-    vec3 _e184 = v_c;
-    vec3 _e185 = v_b;
-    vec3 _e187 = ltc_edge_normal((base + _e180), (base + _e182), (_e184 - _e185));
+    vec3 _e181 = v_a;
+    vec3 _e183 = ltc_edge_normal((base + _e176), (base + _e178), (_e180 - _e181));
+    vec3 _e184 = v_b;
+    vec3 _e186 = v_c;
     vec3 _e188 = v_c;
-    vec3 _e190 = v_d;
-    vec3 _e192 = v_d;
-    vec3 _e193 = v_c;
-    vec3 _e195 = ltc_edge_normal((base + _e188), (base + _e190), (_e192 - _e193));
-    vec3 _e198 = v_d;
-    vec3 _e200 = v_e;
-    vec3 _e202 = v_e;
-    vec3 _e203 = v_d;
-    vec3 _e205 = ltc_edge_normal((base + _e198), (base + _e200), (_e202 - _e203));
-    vec3 d_normal = (surface.normal * dot(surface.normal, _e205));
-    vec3 _e208 = v_e;
-    vec3 _e210 = v_a;
-    vec3 _e212 = v_a;
-    vec3 _e213 = v_e;
-    vec3 _e215 = ltc_edge_normal((base + _e208), (base + _e210), (_e212 - _e213));
+    vec3 _e189 = v_b;
+    vec3 _e191 = ltc_edge_normal((base + _e184), (base + _e186), (_e188 - _e189));
+    vec3 _e192 = v_c;
+    vec3 _e194 = v_d;
+    vec3 _e196 = v_d;
+    vec3 _e197 = v_c;
+    vec3 _e199 = ltc_edge_normal((base + _e192), (base + _e194), (_e196 - _e197));
+    vec3 _e202 = v_d;
+    vec3 _e204 = v_e;
+    vec3 _e206 = v_e;
+    vec3 _e207 = v_d;
+    vec3 _e209 = ltc_edge_normal((base + _e202), (base + _e204), (_e206 - _e207));
+    vec3 d_normal = (surface.normal * dot(surface.normal, _e209));
+    vec3 _e212 = v_e;
+    vec3 _e214 = v_a;
     vec3 _e216 = v_a;
-    vec3 _e217 = ltc_transform(lobe, _e216);
-    vec3 _e218 = v_b;
-    vec3 _e219 = ltc_transform(lobe, _e218);
-    vec3 _e220 = v_c;
+    vec3 _e217 = v_e;
+    vec3 _e219 = ltc_edge_normal((base + _e212), (base + _e214), (_e216 - _e217));
+    vec3 _e220 = v_a;
     vec3 _e221 = ltc_transform(lobe, _e220);
-    vec3 _e222 = v_d;
+    vec3 _e222 = v_b;
     vec3 _e223 = ltc_transform(lobe, _e222);
-    vec3 _e224 = v_e;
+    vec3 _e224 = v_c;
     vec3 _e225 = ltc_transform(lobe, _e224);
-    vec3 _e226 = ltc_transform(lobe, base);
-    vec3 _e227 = ltc_transform_normal(lobe, _e179);
-    vec3 _e228 = ltc_transform_normal(lobe, _e187);
-    vec3 _e229 = ltc_transform_normal(lobe, _e195);
-    vec3 _e230 = ltc_transform_normal(lobe, d_normal);
-    vec3 _e231 = ltc_transform_normal(lobe, _e215);
-    float lowest = (_e226.z + min(min(min(_e217.z, _e219.z), min(_e221.z, _e223.z)), _e225.z));
+    vec3 _e226 = v_d;
+    vec3 _e227 = ltc_transform(lobe, _e226);
+    vec3 _e228 = v_e;
+    vec3 _e229 = ltc_transform(lobe, _e228);
+    vec3 _e230 = ltc_transform(lobe, base);
+    vec3 _e231 = ltc_transform_normal(lobe, _e183);
+    vec3 _e232 = ltc_transform_normal(lobe, _e191);
+    vec3 _e233 = ltc_transform_normal(lobe, _e199);
+    vec3 _e234 = ltc_transform_normal(lobe, d_normal);
+    vec3 _e235 = ltc_transform_normal(lobe, _e219);
+    float lowest = (_e230.z + min(min(min(_e221.z, _e223.z), min(_e225.z, _e227.z)), _e229.z));
     if (distant) {
-        vec3 _e245 = v_a;
-        vec3 _e246 = v_b;
-        vec3 _e247 = v_c;
-        vec3 _e248 = v_d;
-        vec3 _e249 = v_e;
-        vec3 _e250 = ltc_far_pentagon(p_a, _e245, _e246, _e247, _e248, _e249);
-        sum = dot(surface.normal, _e250);
+        vec3 _e249 = v_a;
+        vec3 _e250 = v_b;
+        vec3 _e251 = v_c;
+        vec3 _e252 = v_d;
+        vec3 _e253 = v_e;
+        vec3 _e254 = ltc_far_pentagon(p_a, _e249, _e250, _e251, _e252, _e253, clipped);
+        sum = dot(surface.normal, _e254);
     } else {
-        vec3 _e252 = v_a;
-        vec3 _e253 = v_a;
-        float a_inverse = inversesqrt(max(dot(_e252, _e253), LTC_TINY));
-        vec3 _e258 = v_b;
-        vec3 _e259 = v_b;
-        float b_inverse = inversesqrt(max(dot(_e258, _e259), LTC_TINY));
-        vec3 _e264 = v_c;
-        vec3 _e265 = v_c;
-        float c_inverse = inversesqrt(max(dot(_e264, _e265), LTC_TINY));
-        vec3 _e270 = v_d;
-        vec3 _e271 = v_d;
-        float d_inverse = inversesqrt(max(dot(_e270, _e271), LTC_TINY));
-        vec3 _e276 = v_e;
-        vec3 _e277 = v_e;
-        float e_inverse = inversesqrt(max(dot(_e276, _e277), LTC_TINY));
-        vec3 _e282 = v_a;
-        vec3 a_unit = (_e282 * a_inverse);
-        vec3 _e284 = v_b;
-        vec3 b_unit = (_e284 * b_inverse);
-        vec3 _e286 = v_c;
-        vec3 c_unit = (_e286 * c_inverse);
-        vec3 _e288 = v_d;
-        vec3 d_unit = (_e288 * d_inverse);
-        vec3 _e290 = v_e;
-        vec3 e_unit = (_e290 * e_inverse);
-        vec3 _e293 = ltc_edge(a_unit, b_unit, _e179, (a_inverse * b_inverse));
-        vec3 _e295 = ltc_edge(b_unit, c_unit, _e187, (b_inverse * c_inverse));
-        vec3 _e298 = ltc_edge(c_unit, d_unit, _e195, (c_inverse * d_inverse));
-        vec3 _e301 = ltc_edge(e_unit, a_unit, _e215, (e_inverse * a_inverse));
-        edges = (((_e293 + _e295) + _e298) + _e301);
+        vec3 _e256 = v_a;
+        vec3 _e257 = v_a;
+        float a_inverse = inversesqrt(max(dot(_e256, _e257), LTC_TINY));
+        vec3 _e262 = v_b;
+        vec3 _e263 = v_b;
+        float b_inverse = inversesqrt(max(dot(_e262, _e263), LTC_TINY));
+        vec3 _e268 = v_c;
+        vec3 _e269 = v_c;
+        float c_inverse = inversesqrt(max(dot(_e268, _e269), LTC_TINY));
+        vec3 _e274 = v_d;
+        vec3 _e275 = v_d;
+        float d_inverse = inversesqrt(max(dot(_e274, _e275), LTC_TINY));
+        vec3 _e280 = v_e;
+        vec3 _e281 = v_e;
+        float e_inverse = inversesqrt(max(dot(_e280, _e281), LTC_TINY));
+        vec3 _e286 = v_a;
+        vec3 a_unit = (_e286 * a_inverse);
+        vec3 _e288 = v_b;
+        vec3 b_unit = (_e288 * b_inverse);
+        vec3 _e290 = v_c;
+        vec3 c_unit = (_e290 * c_inverse);
+        vec3 _e292 = v_d;
+        vec3 d_unit = (_e292 * d_inverse);
+        vec3 _e294 = v_e;
+        vec3 e_unit = (_e294 * e_inverse);
+        vec3 _e297 = ltc_edge(a_unit, b_unit, _e183, (a_inverse * b_inverse));
+        vec3 _e299 = ltc_edge(b_unit, c_unit, _e191, (b_inverse * c_inverse));
+        vec3 _e302 = ltc_edge(c_unit, d_unit, _e199, (c_inverse * d_inverse));
+        vec3 _e305 = ltc_edge(e_unit, a_unit, _e219, (e_inverse * a_inverse));
+        edges = (((_e297 + _e299) + _e302) + _e305);
         if (clipped) {
-            vec3 _e304 = edges;
-            vec3 _e306 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
-            edges = (_e304 + _e306);
+            vec3 _e308 = edges;
+            vec3 _e310 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
+            edges = (_e308 + _e310);
         }
-        vec3 _e309 = edges;
-        sum = -(dot(surface.normal, _e309));
+        vec3 _e313 = edges;
+        sum = -(dot(surface.normal, _e313));
     }
-    float lobe_size = max(max(max(dot(_e217, _e217), dot(_e219, _e219)), max(dot(_e221, _e221), dot(_e223, _e223))), dot(_e225, _e225));
-    if (((distant && (lowest > 0.0)) && (lobe_size < (0.0625 * dot(_e226, _e226))))) {
-        vec3 _e330 = ltc_far_pentagon(_e226, _e217, _e219, _e221, _e223, _e225);
-        lobe_sum = _e330;
+    float lobe_size = max(max(max(dot(_e221, _e221), dot(_e223, _e223)), max(dot(_e225, _e225), dot(_e227, _e227))), dot(_e229, _e229));
+    if (((distant && (lowest > 0.0)) && (lobe_size < (0.0625 * dot(_e230, _e230))))) {
+        vec3 _e334 = ltc_far_pentagon(_e230, _e221, _e223, _e225, _e227, _e229, clipped);
+        lobe_sum = _e334;
     } else {
-        vec3 _e336 = ltc_pentagon((_e226 + _e217), (_e226 + _e219), (_e226 + _e221), (_e226 + _e223), (_e226 + _e225), _e227, _e228, _e229, _e230, _e231, clipped);
-        lobe_sum = _e336;
+        vec3 _e340 = ltc_pentagon((_e230 + _e221), (_e230 + _e223), (_e230 + _e225), (_e230 + _e227), (_e230 + _e229), _e231, _e232, _e233, _e234, _e235, clipped);
+        lobe_sum = _e340;
     }
-    float _e337 = sum;
-    vec3 _e340 = lobe_sum;
-    vec3 _e343 = ltc_value(surface, lobe, (_e337 * LTC_OVER_TWO_PI), (_e340 * LTC_OVER_TWO_PI), front, two_sided);
-    return _e343;
+    float _e341 = sum;
+    vec3 _e344 = lobe_sum;
+    vec3 _e347 = ltc_value(surface, lobe, (_e341 * LTC_OVER_TWO_PI), (_e344 * LTC_OVER_TWO_PI), front, two_sided);
+    return _e347;
 }
 
 // Starts a polygon at its first vertex.
@@ -712,6 +741,10 @@ vec3 ltc_edge_from(vec3 origin, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, ve
 
 // Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
 void ltc_polygon_edge(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, bool closing) {
+    vec3 start = vec3(0.0);
+    vec3 start_offset = vec3(0.0);
+    vec3 end = vec3(0.0);
+    vec3 end_offset = vec3(0.0);
     vec3 _e10 = ltc_edge_normal(a, b, (b_offset - a_offset));
     vec3 normal_6 = (closing ? (surface.normal * dot(surface.normal, _e10)) : _e10);
     float _e17 = polygon.diffuse;
@@ -725,47 +758,57 @@ void ltc_polygon_edge(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe
     vec3 _e27 = ltc_transform_normal(lobe, normal_6);
     bool _e28 = ltc_is_above(_e23);
     bool _e29 = ltc_is_above(_e24);
-    if ((_e28 && _e29)) {
-        vec3 _e32 = polygon.lobe_sum;
-        vec3 _e33 = ltc_edge_from(_e22, _e23, _e25, _e24, _e26, _e27);
-        polygon.lobe_sum = (_e32 - _e33);
+    if (!((_e28 || _e29))) {
         return;
-    } else {
-        if ((_e28 || _e29)) {
-            vec3 above = (_e28 ? _e23 : _e24);
-            vec3 below = (_e28 ? _e24 : _e23);
-            vec3 above_offset = (_e28 ? _e25 : _e26);
-            vec3 below_offset = (_e28 ? _e26 : _e25);
-            float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
-            vec3 _e51 = ltc_crossing(above, below, (_e28 ? _e27 : -(_e27)));
-            vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-            float _e56 = polygon.lobe_crossed;
-            if ((_e56 > 0.0)) {
-                vec3 base = polygon.lobe_crossing;
-                vec3 base_offset = polygon.lobe_crossing_offset;
-                vec3 start = (_e28 ? _e51 : base);
-                vec3 end = (_e28 ? base : _e51);
-                vec3 _e66 = polygon.lobe_sum;
-                vec3 _e70 = ltc_edge_normal(start, end, (end - start));
-                vec3 _e71 = ltc_edge_from(_e22, start, (_e28 ? crossing_offset : base_offset), end, (_e28 ? base_offset : crossing_offset), _e70);
-                polygon.lobe_sum = (_e66 - _e71);
-            } else {
-                polygon.lobe_crossed = 1.0;
-                polygon.lobe_crossing = _e51;
-                polygon.lobe_crossing_offset = crossing_offset;
-            }
-            vec3 _e78 = polygon.lobe_sum;
-            vec3 _e83 = ltc_edge_from(_e22, (_e28 ? _e23 : _e51), (_e28 ? _e25 : crossing_offset), (_e28 ? _e51 : _e24), (_e28 ? crossing_offset : _e26), _e27);
-            polygon.lobe_sum = (_e78 - _e83);
-            return;
-        } else {
-            return;
-        }
     }
+    start = _e23;
+    start_offset = _e25;
+    end = _e24;
+    end_offset = _e26;
+    if (!((_e28 && _e29))) {
+        vec3 above = (_e28 ? _e23 : _e24);
+        vec3 below = (_e28 ? _e24 : _e23);
+        vec3 above_offset = (_e28 ? _e25 : _e26);
+        vec3 below_offset = (_e28 ? _e26 : _e25);
+        float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
+        vec3 _e53 = ltc_crossing(above, below, (_e28 ? _e27 : -(_e27)));
+        vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
+        float _e58 = polygon.lobe_crossed;
+        if ((_e58 > 0.0)) {
+            vec3 base = polygon.lobe_crossing;
+            vec3 base_offset = polygon.lobe_crossing_offset;
+            vec3 horizon_start = (_e28 ? _e53 : base);
+            vec3 horizon_end = (_e28 ? base : _e53);
+            vec3 _e68 = polygon.lobe_sum;
+            vec3 _e72 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
+            vec3 _e73 = ltc_edge_from(_e22, horizon_start, (_e28 ? crossing_offset : base_offset), horizon_end, (_e28 ? base_offset : crossing_offset), _e72);
+            polygon.lobe_sum = (_e68 - _e73);
+        } else {
+            polygon.lobe_crossed = 1.0;
+            polygon.lobe_crossing = _e53;
+            polygon.lobe_crossing_offset = crossing_offset;
+        }
+        start = (_e28 ? _e23 : _e53);
+        start_offset = (_e28 ? _e25 : crossing_offset);
+        end = (_e28 ? _e53 : _e24);
+        end_offset = (_e28 ? crossing_offset : _e26);
+    }
+    vec3 _e84 = polygon.lobe_sum;
+    vec3 _e85 = start;
+    vec3 _e86 = start_offset;
+    vec3 _e87 = end;
+    vec3 _e88 = end_offset;
+    vec3 _e89 = ltc_edge_from(_e22, _e85, _e86, _e87, _e88, _e27);
+    polygon.lobe_sum = (_e84 - _e89);
+    return;
 }
 
 // Adds the next vertex.
 void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe, vec3 corner) {
+    vec3 start = vec3(0.0);
+    vec3 start_offset = vec3(0.0);
+    vec3 end = vec3(0.0);
+    vec3 end_offset = vec3(0.0);
     vec3 origin = (surface.position * LTC_HEADROOM);
     vec3 _e8 = polygon.first;
     vec3 first_far = (_e8 * LTC_HEADROOM);
@@ -791,35 +834,43 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe,
     float b_height = (near ? (height + dot(surface.normal, b_offset)) : dot(surface.normal, b));
     bool a_up = (a_height > 0.0);
     bool b_up = (b_height > 0.0);
-    if ((a_up && b_up)) {
-        ltc_polygon_edge(polygon, surface, lobe, reference, a, a_offset, b, b_offset, false);
+    if (!((a_up || b_up))) {
         return;
-    } else {
-        if ((a_up || b_up)) {
-            vec3 above = (a_up ? a : b);
-            vec3 below = (a_up ? b : a);
-            vec3 above_offset = (a_up ? a_offset : b_offset);
-            vec3 below_offset = (a_up ? b_offset : a_offset);
-            float high = max(a_height, b_height);
-            float t = (high / max((high - min(a_height, b_height)), LTC_TINY));
-            vec3 crossing = (above + ((below - above) * t));
-            vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-            float _e90 = polygon.surface_crossed;
-            if ((_e90 > 0.0)) {
-                vec3 base = polygon.surface_crossing;
-                vec3 base_offset = polygon.surface_crossing_offset;
-                ltc_polygon_edge(polygon, surface, lobe, reference, (a_up ? crossing : base), (a_up ? crossing_offset : base_offset), (a_up ? base : crossing), (a_up ? base_offset : crossing_offset), true);
-            } else {
-                polygon.surface_crossed = 1.0;
-                polygon.surface_crossing = crossing;
-                polygon.surface_crossing_offset = crossing_offset;
-            }
-            ltc_polygon_edge(polygon, surface, lobe, reference, (a_up ? a : crossing), (a_up ? a_offset : crossing_offset), (a_up ? crossing : b), (a_up ? crossing_offset : b_offset), false);
-            return;
-        } else {
-            return;
-        }
     }
+    start = a;
+    start_offset = a_offset;
+    end = b;
+    end_offset = b_offset;
+    if (!((a_up && b_up))) {
+        vec3 above = (a_up ? a : b);
+        vec3 below = (a_up ? b : a);
+        vec3 above_offset = (a_up ? a_offset : b_offset);
+        vec3 below_offset = (a_up ? b_offset : a_offset);
+        float high = max(a_height, b_height);
+        float t = (high / max((high - min(a_height, b_height)), LTC_TINY));
+        vec3 crossing = (above + ((below - above) * t));
+        vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
+        float _e95 = polygon.surface_crossed;
+        if ((_e95 > 0.0)) {
+            vec3 base = polygon.surface_crossing;
+            vec3 base_offset = polygon.surface_crossing_offset;
+            ltc_polygon_edge(polygon, surface, lobe, reference, (a_up ? crossing : base), (a_up ? crossing_offset : base_offset), (a_up ? base : crossing), (a_up ? base_offset : crossing_offset), true);
+        } else {
+            polygon.surface_crossed = 1.0;
+            polygon.surface_crossing = crossing;
+            polygon.surface_crossing_offset = crossing_offset;
+        }
+        start = (a_up ? a : crossing);
+        start_offset = (a_up ? a_offset : crossing_offset);
+        end = (a_up ? crossing : b);
+        end_offset = (a_up ? crossing_offset : b_offset);
+    }
+    vec3 _e115 = start;
+    vec3 _e116 = start_offset;
+    vec3 _e117 = end;
+    vec3 _e118 = end_offset;
+    ltc_polygon_edge(polygon, surface, lobe, reference, _e115, _e116, _e117, _e118, false);
+    return;
 }
 
 // The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added. Its

@@ -26,7 +26,8 @@ mod surface;
 pub use polygon::{LtcPolygon, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end};
 pub use quad::{
     ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_edge_excess, ltc_edge_near,
-    ltc_edge_normal, ltc_edge_part, ltc_far_pentagon, ltc_is_above, ltc_offset, ltc_pentagon, ltc_quad,
+    ltc_edge_normal, ltc_edge_part, ltc_far_offset, ltc_far_pentagon, ltc_is_above, ltc_offset, ltc_pentagon,
+    ltc_quad,
 };
 pub use real::{Real, Vector, angle_excess};
 pub use surface::{

@@ -101,6 +101,16 @@ pub fn ltc_offset<R: Real>(
     }
 }
 
+/// [`ltc_offset`] for an offset much shorter than `origin`.
+pub fn ltc_far_offset<R: Real>(origin: R::Vec3, reference: R::Vec3, offset: R::Vec3) -> R::Vec3 {
+    let target_point = origin + offset;
+    let square = target_point.dot(target_point);
+    let inverse_length = square.max(R::new(LTC_TINY)).inverse_sqrt();
+    let length_sum = square * inverse_length + origin.dot(reference);
+    let length_difference = offset.dot(origin + target_point) / length_sum.max(R::new(LTC_TINY));
+    (offset - reference * length_difference) * inverse_length
+}
+
 /// Whether `v` lies above the lobe's horizon, or on it but for rounding.
 pub fn ltc_is_above<R: Real>(v: R::Vec3) -> bool {
     (v.z() > R::new(0.0)) | (v.z() * v.z() < R::new(1e-12) * v.dot(v))
@@ -172,7 +182,7 @@ fn inverse_length<R: Real>(v: R::Vec3) -> R {
 /// or near it and the offsets of its vertices from there, all much shorter than the distance.
 pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5]) -> R::Vec3 {
     let reference = unit::<R>(origin);
-    let offsets = vertices.map(|v| ltc_offset::<R>(origin, reference, origin + v, v));
+    let offsets = vertices.map(|v| ltc_far_offset::<R>(origin, reference, v));
     let squares = offsets.map(|offset| offset.dot(offset));
     let (next, last) = (|i: usize| (i + 1) % 5, |i: usize| (i + 4) % 5);
     let product = |i: usize| offsets[i].cross(offsets[next(i)]);
@@ -206,6 +216,9 @@ pub fn ltc_quad<R: Real>(
     let p_a = full[0] * scale;
     let front = sides[1].cross(sides[2] - sides[0]).dot(p_a) < zero;
 
+    if !(front | two_sided) {
+        return nothing;
+    }
     let size_squared = largest(sides.map(|side| side.dot(side)));
     let distant = size_squared < R::new(0.0625) * p_a.dot(p_a);
     let first = if distant { nothing } else { p_a };
