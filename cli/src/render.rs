@@ -1,13 +1,14 @@
 //! `softbox render`: a picture of a scene.
 
 use std::path::PathBuf;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
 use softbox::device::Device;
 use softbox::scene::{Comparison, Panel, Scene, check_png_path, render_truth, write_png};
 use softbox::table::Table;
+
+use crate::progress;
 
 /// Difference, over the mean of the truth, that has the full colour.
 const DIFFERENCE_SCALE: f64 = 0.2;
@@ -98,15 +99,9 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
 
 /// Runs `work` with a progress bar and a clock; the bar is silent where there is no terminal.
 fn timed<T>(name: &'static str, work: impl FnOnce(&(dyn Fn(f64) + Sync)) -> T) -> (T, f64) {
-    const STEPS: u64 = 1000;
-    let bar = ProgressBar::new(STEPS);
-    if let Ok(style) = ProgressStyle::with_template("{msg:12} {wide_bar} {percent:>3} % {eta}") {
-        bar.set_style(style);
-    }
-    bar.set_message(name);
-    bar.enable_steady_tick(Duration::from_millis(200));
+    let bar = progress::bar(name);
     let start = Instant::now();
-    let result = work(&|share| bar.set_position((share * STEPS as f64) as u64));
+    let result = work(&|share| progress::advance(&bar, share));
     bar.finish_and_clear();
     (result, start.elapsed().as_secs_f64())
 }

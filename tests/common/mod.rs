@@ -150,14 +150,26 @@ fn specular_bound(case: &Case) -> f64 {
     }
     let alpha = f64::from(case.roughness.clamp(0.02, 1.0)).powi(2);
     let cosine = case.view.as_dvec3().normalize().dot(case.normal.as_dvec3().normalize());
-    4e-6 / (alpha * cosine.max(1e-9)) + case.specular_slack
+    // A distant light is small, and so is its error.
+    let base = if matches!(case.bound, Bound::Relative(_)) { 4e-8 } else { 2e-6 };
+    base / (alpha * cosine.max(1e-9)) + case.specular_slack
+}
+
+/// The worst of a family: the largest error with its index, and the largest shares of the bounds.
+#[derive(Default)]
+struct Worst {
+    count: usize,
+    error: f64,
+    index: usize,
+    share: f64,
+    specular_share: f64,
 }
 
 /// Checks values against the bounds and exact arithmetic (the twin in f64, or a closed form).
 /// Returns the worst form-factor error of each family; panics with the first offenders.
 pub fn check(what: &str, cases: &[Case], exact: &[[f64; 3]], values: &[[f32; 3]], table: &Table) {
     assert_eq!(cases.len(), values.len(), "{what}: one value for each case");
-    let mut worst: std::collections::BTreeMap<&str, (f64, usize)> = std::collections::BTreeMap::new();
+    let mut worst: std::collections::BTreeMap<&str, Worst> = std::collections::BTreeMap::new();
     let mut offenders = Vec::new();
     for (i, ((case, exact), value)) in cases.iter().zip(exact).zip(values).enumerate() {
         let [diffuse, specular, fresnel] = value.map(f64::from);
@@ -184,14 +196,24 @@ pub fn check(what: &str, cases: &[Case], exact: &[[f64; 3]], values: &[[f32; 3]]
         if !physical || !within {
             offenders.push((i, error));
         }
-        let entry = worst.entry(case.family).or_insert((0.0, i));
-        if error > entry.0 || error.is_nan() {
-            *entry = (error, i);
+        let entry = worst.entry(case.family).or_default();
+        entry.count += 1;
+        if error > entry.error || error.is_nan() {
+            (entry.error, entry.index) = (error, i);
+        }
+        if limit > 0.0 {
+            entry.share = entry.share.max(error / limit);
+        }
+        let slack = specular_bound(case);
+        if slack.is_finite() {
+            entry.specular_share = entry.specular_share.max((specular - exact[1]).abs() / slack);
         }
     }
-    for (family, (error, index)) in &worst {
-        let count = cases.iter().filter(|case| case.family == *family).count();
-        println!("{what}: {family}: worst of {count} {error:.2e} at {index} ({:?})", cases[*index].bound);
+    for (family, worst) in &worst {
+        println!(
+            "{what}: {family}: of {} the worst is {:.2e} at {}; at most {:.2} of the bound, specular {:.2}",
+            worst.count, worst.error, worst.index, worst.share, worst.specular_share
+        );
     }
     if !offenders.is_empty() {
         let shown: Vec<String> = offenders
