@@ -67,55 +67,25 @@ struct LtcSurface {
 
 /// One lobe: a linearly transformed cosine and the weights of the BRDF's two parts.
 struct LtcLobe {
-    /// Entries (x, y, z, w) of the inverse matrix in the surface's frame:
-    /// rows (x, 0, z), (0, 1, 0), (y, 0, w).
-    entries: vec4<f32>,
-    /// First row of the matrix that leads vectors from the caller's space to the lobe's.
+    /// First row of the inverse matrix: it leads vectors from the caller's space to the lobe's.
     axis_x: vec3<f32>,
     /// The BRDF's integral of f cos over the hemisphere, for F = 1.
     albedo: f32,
-    /// Second row of that matrix.
+    /// Second row of the inverse matrix.
     axis_y: vec3<f32>,
     /// The BRDF's integral of f cos (1 - v.h)^5 over the hemisphere.
     fresnel: f32,
-    /// Third row of that matrix.
+    /// Third row of the inverse matrix.
     axis_z: vec3<f32>,
     /// Share of the lobe's energy above the surface.
     share: f32,
-    /// First row of the matrix that leads cross products of vectors there.
+    /// First row of its cofactors: they lead cross products of vectors to the lobe's space, and directions,
+    /// as the transpose, back.
     normal_x: vec3<f32>,
-    /// Determinant of the entries.
-    volume: f32,
-    /// Third row of that matrix; the second is `volume` times `axis_y`.
+    /// Second row of the cofactors.
+    normal_y: vec3<f32>,
+    /// Third row of the cofactors.
     normal_z: vec3<f32>,
-}
-
-/// State of a polygon that is given vertex by vertex; read and written by the library alone.
-struct LtcPolygon {
-    /// First vertex, in the caller's space.
-    first: vec3<f32>,
-    /// Factor that brings the first vertex to a distance of about 1.
-    scale: f32,
-    /// Last vertex so far, in the caller's space.
-    previous: vec3<f32>,
-    /// Twice the signed area so far times the height of the surface point over the light's plane.
-    facing: f32,
-    /// First point on the surface's horizon, in the frame.
-    surface_crossing: vec3<f32>,
-    /// 1 once there is such a point.
-    surface_crossed: f32,
-    /// Its offset from the first vertex.
-    surface_crossing_offset: vec3<f32>,
-    /// Form factor so far, times 2 pi and signed.
-    diffuse: f32,
-    /// First point on the lobe's horizon, in the lobe's space.
-    lobe_crossing: vec3<f32>,
-    /// 1 once there is such a point.
-    lobe_crossed: f32,
-    /// Its offset from the first vertex.
-    lobe_crossing_offset: vec3<f32>,
-    /// Vector form factor so far in the lobe's space, times 2 pi and signed.
-    lobe_sum: vec3<f32>,
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -194,7 +164,6 @@ fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcL
     let a = surface.alpha;
     let m = vec4<f32>(c * c + a * shape.x, a * s * shape.y, s * (c + a * shape.z), a * shape.w);
     var lobe: LtcLobe;
-    lobe.entries = m;
     lobe.axis_x = surface.tangent * m.x + surface.normal * m.z;
     lobe.albedo = amplitude.x;
     lobe.axis_y = surface.bitangent;
@@ -205,7 +174,7 @@ fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcL
     // angle g between the two normals.
     lobe.share = 0.5 + 0.5 * m.x * inverseSqrt(max(m.x * m.x + m.y * m.y, LTC_TINY));
     lobe.normal_x = surface.tangent * m.w - surface.normal * m.y;
-    lobe.volume = m.x * m.w - m.y * m.z;
+    lobe.normal_y = surface.bitangent * (m.x * m.w - m.y * m.z);
     lobe.normal_z = surface.normal * m.x - surface.tangent * m.z;
     return lobe;
 }
@@ -228,7 +197,7 @@ fn ltc_transform(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
 /// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
 /// the surface point closely.
 fn ltc_transform_normal(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(dot(lobe.normal_x, v), lobe.volume * dot(lobe.axis_y, v), dot(lobe.normal_z, v));
+    return vec3<f32>(dot(lobe.normal_x, v), dot(lobe.normal_y, v), dot(lobe.normal_z, v));
 }
 
 /// Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
@@ -246,31 +215,34 @@ fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_refl
 /// for a light that covers the whole lobe it is the table's average. The square of the coverage
 /// leads from one to the other.
 fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<f32>) -> vec2<f32> {
-    // The matrix itself, up to the positive factor 1 / determinant.
-    let m = lobe.entries;
-    let direction = vec3<f32>(m.w * toward.x - m.z * toward.z, lobe.volume * toward.y, m.x * toward.z - m.y * toward.x);
-    let unit = ltc_direction(direction);
+    let direction = ltc_direction(lobe.normal_x * toward.x + lobe.normal_y * toward.y + lobe.normal_z * toward.z);
     // cos^2 of half the angle between view and light: the half vector's cosine, squared.
-    let half_cosine = clamp(0.5 + 0.5 * (surface.sin_view * unit.x + surface.cos_view * unit.z), 0.0, 1.0);
+    let along = surface.sin_view * dot(surface.tangent, direction) + surface.cos_view * dot(surface.normal, direction);
+    let half_cosine = clamp(0.5 + 0.5 * along, 0.0, 1.0);
     let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
     let schlick = f * f * f * f * f;
     let whole = coverage * coverage;
     return coverage * vec2<f32>(lobe.albedo, lobe.albedo * schlick * (1.0 - whole) + lobe.fresnel * whole);
 }
 
-/// The value (diffuse, specular, fresnel) from the signed form factor over the surface's horizon
-/// and the signed vector form factor over both horizons in the lobe's space; `front` tells whether
-/// the light shows its emitting side.
-fn ltc_value(surface: LtcSurface, lobe: LtcLobe, form_factor: f32, lobe_form_factor: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
-    // A two-sided light is lit by the sign that the sum itself has: `front` may differ from it by
-    // rounding where the light is seen edge-on.
-    let emits = front | two_sided;
-    let flipped = two_sided & (lobe_form_factor.z < 0.0);
-    let toward = select(lobe_form_factor, -lobe_form_factor, flipped);
-    let diffuse = select(form_factor, abs(form_factor), two_sided);
-    let coverage = select(0.0, clamp(toward.z / lobe.share, 0.0, 1.0), emits);
-    let specular = ltc_specular(surface, lobe, coverage, toward);
-    return vec3<f32>(select(0.0, clamp(diffuse, 0.0, 1.0), emits), specular);
+/// The value (diffuse, specular, fresnel) from the form factor over the surface's horizon and the vector
+/// form factor over both horizons in the lobe's space, both of the light that the surface receives.
+fn ltc_value(surface: LtcSurface, lobe: LtcLobe, form_factor: f32, toward: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(form_factor, ltc_specular(surface, lobe, clamp(toward.z / lobe.share, 0.0, 1.0), toward));
+}
+
+/// The form factor of the light that arrives, from a signed one; `front` tells whether the light shows its
+/// emitting side. A two-sided light is lit by the sign that the sum itself has: `front` may differ from it by
+/// rounding where the light is seen edge-on.
+fn ltc_received(form_factor: f32, front: bool, two_sided: bool) -> f32 {
+    let received = select(form_factor, abs(form_factor), two_sided);
+    return select(0.0, clamp(received, 0.0, 1.0), front | two_sided);
+}
+
+/// ltc_received for a vector form factor, whose sign is that of its z.
+fn ltc_received_vector(form_factor: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
+    let received = select(form_factor, -form_factor, two_sided & (form_factor.z < 0.0));
+    return select(vec3<f32>(0.0), received, front | two_sided);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -496,16 +468,46 @@ fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
     return -(reference * dot(reference, area) + cross(reference, 0.5 * across) + excess);
 }
 
-/// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
-/// `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
-/// vertices make it a triangle. For a quad that is not convex use the polygon functions.
-///
-/// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
-/// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
-/// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
-/// Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
-/// place of 1e-6: so much do the coordinates' own digits leave open.
-fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
+/// A convex quad light, cut at the surface's horizon: what all lobes share of the work on it.
+struct LtcQuad {
+    /// First vertex of the pentagon that is left of the quad, from `base`; where the quad is not cut, the last
+    /// two coincide.
+    a: vec3<f32>,
+    /// Whether the light reaches the surface at all.
+    reaches: bool,
+    /// Second vertex.
+    b: vec3<f32>,
+    /// Whether the horizon cuts the quad.
+    clipped: bool,
+    /// Third vertex.
+    c: vec3<f32>,
+    /// Whether the light is small for its distance.
+    distant: bool,
+    /// Fourth vertex.
+    d: vec3<f32>,
+    /// Whether the light shows its emitting side.
+    front: bool,
+    /// Fifth vertex.
+    e: vec3<f32>,
+    /// Whether the light emits from both sides.
+    two_sided: bool,
+    /// Zero for a near light; for a distant one the quad's first vertex from the surface point, so that the vertices
+    /// keep their digits.
+    base: vec3<f32>,
+    /// Cross product of the first and the second vertex, both from the surface point.
+    a_normal: vec3<f32>,
+    /// That of the second and the third.
+    b_normal: vec3<f32>,
+    /// That of the third and the fourth.
+    c_normal: vec3<f32>,
+    /// That of the fourth and the fifth.
+    d_normal: vec3<f32>,
+    /// That of the fifth and the first.
+    e_normal: vec3<f32>,
+}
+
+/// Cuts a convex quad light with the vertices `a`, `b`, `c`, `d` at the surface's horizon; see ltc_quad.
+fn ltc_quad_begin(surface: LtcSurface, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> LtcQuad {
     let origin = surface.position * LTC_HEADROOM;
     let a_far = a * LTC_HEADROOM;
     let a_full = a_far - origin;
@@ -519,9 +521,12 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let side_c = (c * LTC_HEADROOM - a_far) * scale;
     let side_d = (d * LTC_HEADROOM - a_far) * scale;
     let p_a = a_full * scale;
-    let front = dot(cross(side_c, side_d - side_b), p_a) < 0.0;
-    if (!(front | two_sided)) {
-        return vec3<f32>(0.0);
+    var quad: LtcQuad;
+    quad.front = dot(cross(side_c, side_d - side_b), p_a) < 0.0;
+    quad.two_sided = two_sided;
+    quad.reaches = false;
+    if (!(quad.front | two_sided)) {
+        return quad;
     }
 
     // What is cut at the horizon: the vertices of a near light, the offsets of a distant one's from its
@@ -540,16 +545,18 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
     let c_up = heights.z > 0.0;
     let d_up = heights.w > 0.0;
     if (!(a_up | b_up | c_up | d_up)) {
-        return vec3<f32>(0.0);
+        return quad;
     }
+    quad.reaches = true;
+    quad.distant = distant;
     let first = select(p_a, vec3<f32>(0.0), distant);
     var v_a = first;
     var v_b = p_b;
     var v_c = p_c;
     var v_d = p_d;
     var v_e = p_d;
-    let clipped = !(a_up & b_up & c_up & d_up);
-    if (clipped) {
+    quad.clipped = !(a_up & b_up & c_up & d_up);
+    if (quad.clipped) {
         // Turn the quad until its last vertex is the last one below; the quad cut at the surface is
         // then the pentagon of the first three vertices, the exit and the entry.
         let last_a = b_up & !a_up;
@@ -583,54 +590,93 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
 
     // Cross products of neighbouring vertices, from the edges' own vectors.
     let base = select(vec3<f32>(0.0), p_a, distant);
-    let a_normal = ltc_edge_normal(base + v_a, base + v_b, v_b - v_a);
-    let b_normal = ltc_edge_normal(base + v_b, base + v_c, v_c - v_b);
-    let c_normal = ltc_edge_normal(base + v_c, base + v_d, v_d - v_c);
+    quad.a = v_a;
+    quad.b = v_b;
+    quad.c = v_c;
+    quad.d = v_d;
+    quad.e = v_e;
+    quad.base = base;
+    quad.a_normal = ltc_edge_normal(base + v_a, base + v_b, v_b - v_a);
+    quad.b_normal = ltc_edge_normal(base + v_b, base + v_c, v_c - v_b);
+    quad.c_normal = ltc_edge_normal(base + v_c, base + v_d, v_d - v_c);
     // The edge from exit to entry lies on the horizon, whatever rounding says of its normal.
-    let d_normal = surface.normal * dot(surface.normal, ltc_edge_normal(base + v_d, base + v_e, v_e - v_d));
-    let e_normal = ltc_edge_normal(base + v_e, base + v_a, v_a - v_e);
-    let l_a = ltc_transform(lobe, v_a);
-    let l_b = ltc_transform(lobe, v_b);
-    let l_c = ltc_transform(lobe, v_c);
-    let l_d = ltc_transform(lobe, v_d);
-    let l_e = ltc_transform(lobe, v_e);
-    let l_base = ltc_transform(lobe, base);
-    let m_a = ltc_transform_normal(lobe, a_normal);
-    let m_b = ltc_transform_normal(lobe, b_normal);
-    let m_c = ltc_transform_normal(lobe, c_normal);
-    let m_d = ltc_transform_normal(lobe, d_normal);
-    let m_e = ltc_transform_normal(lobe, e_normal);
-    let lowest = l_base.z + min(min(min(l_a.z, l_b.z), min(l_c.z, l_d.z)), l_e.z);
-    var sum: f32;
-    if (distant) {
-        sum = dot(surface.normal, ltc_far_pentagon(p_a, v_a, v_b, v_c, v_d, v_e, clipped));
-    } else {
-        let a_inverse = inverseSqrt(max(dot(v_a, v_a), LTC_TINY));
-        let b_inverse = inverseSqrt(max(dot(v_b, v_b), LTC_TINY));
-        let c_inverse = inverseSqrt(max(dot(v_c, v_c), LTC_TINY));
-        let d_inverse = inverseSqrt(max(dot(v_d, v_d), LTC_TINY));
-        let e_inverse = inverseSqrt(max(dot(v_e, v_e), LTC_TINY));
-        let a_unit = v_a * a_inverse;
-        let b_unit = v_b * b_inverse;
-        let c_unit = v_c * c_inverse;
-        let d_unit = v_d * d_inverse;
-        let e_unit = v_e * e_inverse;
-        var edges = ltc_edge(a_unit, b_unit, a_normal, a_inverse * b_inverse) + ltc_edge(b_unit, c_unit, b_normal, b_inverse * c_inverse)
-            + ltc_edge(c_unit, d_unit, c_normal, c_inverse * d_inverse) + ltc_edge(e_unit, a_unit, e_normal, e_inverse * a_inverse);
-        if (clipped) {
-            edges += ltc_edge(d_unit, e_unit, d_normal, d_inverse * e_inverse);
-        }
-        sum = -dot(surface.normal, edges);
+    quad.d_normal = surface.normal * dot(surface.normal, ltc_edge_normal(base + v_d, base + v_e, v_e - v_d));
+    quad.e_normal = ltc_edge_normal(base + v_e, base + v_a, v_a - v_e);
+    return quad;
+}
+
+/// Vector form factor, times 2 pi and signed, of what the surface's horizon leaves of a quad, in the
+/// caller's space.
+fn ltc_quad_form_factor(quad: LtcQuad) -> vec3<f32> {
+    if (quad.distant) {
+        return ltc_far_pentagon(quad.base, quad.a, quad.b, quad.c, quad.d, quad.e, quad.clipped);
     }
-    var lobe_sum: vec3<f32>;
+    let a_inverse = inverseSqrt(max(dot(quad.a, quad.a), LTC_TINY));
+    let b_inverse = inverseSqrt(max(dot(quad.b, quad.b), LTC_TINY));
+    let c_inverse = inverseSqrt(max(dot(quad.c, quad.c), LTC_TINY));
+    let d_inverse = inverseSqrt(max(dot(quad.d, quad.d), LTC_TINY));
+    let e_inverse = inverseSqrt(max(dot(quad.e, quad.e), LTC_TINY));
+    let a_unit = quad.a * a_inverse;
+    let b_unit = quad.b * b_inverse;
+    let c_unit = quad.c * c_inverse;
+    let d_unit = quad.d * d_inverse;
+    let e_unit = quad.e * e_inverse;
+    var edges = ltc_edge(a_unit, b_unit, quad.a_normal, a_inverse * b_inverse) + ltc_edge(b_unit, c_unit, quad.b_normal, b_inverse * c_inverse)
+        + ltc_edge(c_unit, d_unit, quad.c_normal, c_inverse * d_inverse) + ltc_edge(e_unit, a_unit, quad.e_normal, e_inverse * a_inverse);
+    if (quad.clipped) {
+        edges += ltc_edge(d_unit, e_unit, quad.d_normal, d_inverse * e_inverse);
+    }
+    return -edges;
+}
+
+/// The form factor of a quad, 0 to 1.
+fn ltc_quad_diffuse(surface: LtcSurface, quad: LtcQuad) -> f32 {
+    if (!quad.reaches) {
+        return 0.0;
+    }
+    return ltc_received(dot(surface.normal, ltc_quad_form_factor(quad)) * LTC_OVER_TWO_PI, quad.front, quad.two_sided);
+}
+
+/// The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
+fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
+    if (!quad.reaches) {
+        return vec3<f32>(0.0);
+    }
+    let a = ltc_transform(lobe, quad.a);
+    let b = ltc_transform(lobe, quad.b);
+    let c = ltc_transform(lobe, quad.c);
+    let d = ltc_transform(lobe, quad.d);
+    let e = ltc_transform(lobe, quad.e);
+    let base = ltc_transform(lobe, quad.base);
+    let lowest = base.z + min(min(min(a.z, b.z), min(c.z, d.z)), e.z);
     // The lobe's space stretches: there a distant light may be near.
-    let lobe_size = max(max(max(dot(l_a, l_a), dot(l_b, l_b)), max(dot(l_c, l_c), dot(l_d, l_d))), dot(l_e, l_e));
-    if (distant & (lowest > 0.0) & (lobe_size < 0.0625 * dot(l_base, l_base))) {
-        lobe_sum = ltc_far_pentagon(l_base, l_a, l_b, l_c, l_d, l_e, clipped);
+    let size = max(max(max(dot(a, a), dot(b, b)), max(dot(c, c), dot(d, d))), dot(e, e));
+    var sum: vec3<f32>;
+    if (quad.distant & (lowest > 0.0) & (size < 0.0625 * dot(base, base))) {
+        sum = ltc_far_pentagon(base, a, b, c, d, e, quad.clipped);
     } else {
-        lobe_sum = ltc_pentagon(l_base + l_a, l_base + l_b, l_base + l_c, l_base + l_d, l_base + l_e, m_a, m_b, m_c, m_d, m_e, clipped);
+        sum = ltc_pentagon(base + a, base + b, base + c, base + d, base + e, ltc_transform_normal(lobe, quad.a_normal),
+            ltc_transform_normal(lobe, quad.b_normal), ltc_transform_normal(lobe, quad.c_normal),
+            ltc_transform_normal(lobe, quad.d_normal), ltc_transform_normal(lobe, quad.e_normal), quad.clipped);
     }
-    return ltc_value(surface, lobe, sum * LTC_OVER_TWO_PI, lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
+    return ltc_received_vector(sum * LTC_OVER_TWO_PI, quad.front, quad.two_sided);
+}
+
+/// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
+/// `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
+/// vertices make it a triangle. For a quad that is not convex use the polygon functions.
+///
+/// Error of the form factor against exact arithmetic: at most 1e-6 for a light whose size is at
+/// least a tenth of its distance, 2e-6 for one that touches or all but touches the surface; at most
+/// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
+/// Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
+/// place of 1e-6: so much do the coordinates' own digits leave open.
+fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
+    let quad = ltc_quad_begin(surface, a, b, c, d, two_sided);
+    if (!quad.reaches) {
+        return vec3<f32>(0.0);
+    }
+    return ltc_value(surface, lobe, ltc_quad_diffuse(surface, quad), ltc_quad_lobe(quad, lobe));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -640,47 +686,118 @@ fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: v
 //     ltc_polygon_add(&polygon, surface, lobe, vertex);     // for each of the others
 //     let value = ltc_polygon_end(&polygon, surface, lobe, two_sided);
 //
+// With several lobes, add each vertex to the outline and then to each lobe, the first one again at the end:
+//
+//     var outline = ltc_outline_begin(surface, first_vertex);
+//     var sum = ltc_outline_lobe_begin();
+//     ltc_outline_add(&outline, surface, vertex);
+//     ltc_outline_lobe_add(&sum, outline, lobe);
+//     let form_factor = ltc_outline_diffuse(outline, two_sided);
+//     let toward = ltc_outline_lobe(outline, sum, two_sided);
+//
 // Nothing is stored but sums and one point on each horizon. All points where a planar polygon
 // crosses a plane through the surface point lie on one straight line, so the pieces of the horizon
 // that close the cut polygon can all be measured from the first such point: forth to each point of
 // entry, back from each point of exit.
 // ---------------------------------------------------------------------------------------------
 
-/// Starts a polygon at its first vertex.
-fn ltc_polygon_begin(surface: LtcSurface, corner: vec3<f32>) -> LtcPolygon {
-    let to_first = (corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM);
-    var polygon: LtcPolygon;
-    polygon.first = corner;
-    polygon.scale = 1.0 / max(ltc_extent(to_first), LTC_TINY);
-    polygon.previous = corner;
-    polygon.facing = 0.0;
-    polygon.surface_crossing = vec3<f32>(0.0);
-    polygon.surface_crossed = 0.0;
-    polygon.surface_crossing_offset = vec3<f32>(0.0);
-    polygon.diffuse = 0.0;
-    polygon.lobe_crossing = vec3<f32>(0.0);
-    polygon.lobe_crossed = 0.0;
-    polygon.lobe_crossing_offset = vec3<f32>(0.0);
-    polygon.lobe_sum = vec3<f32>(0.0);
-    return polygon;
+/// State of a polygon that is given vertex by vertex, and its last edge, cut at the surface's horizon: what
+/// all lobes share of the work on it. Read and written by the library alone.
+struct LtcOutline {
+    /// First vertex, in the caller's space.
+    first: vec3<f32>,
+    /// Factor that brings the first vertex to a distance of about 1.
+    scale: f32,
+    /// Last vertex so far, in the caller's space.
+    previous: vec3<f32>,
+    /// Twice the signed area so far times the height of the surface point over the light's plane.
+    facing: f32,
+    /// First point on the surface's horizon.
+    crossing: vec3<f32>,
+    /// Form factor so far, times 2 pi and signed.
+    diffuse: f32,
+    /// Offset of that point from the first vertex.
+    crossing_offset: vec3<f32>,
+    /// Whether there is such a point.
+    crossed: bool,
+    /// The first vertex, scaled as the points of the last edge.
+    reference: vec3<f32>,
+    /// Whether anything of the last edge lies above the horizon.
+    above: bool,
+    /// Where what is left of the last edge starts.
+    start: vec3<f32>,
+    /// Whether the last edge leaves the upper side or comes back to it, so that a piece of the horizon closes it.
+    closes: bool,
+    /// Offset of the start from the first vertex.
+    start_offset: vec3<f32>,
+    /// Where it ends.
+    end: vec3<f32>,
+    /// Offset of the end.
+    end_offset: vec3<f32>,
+    /// Cross product of start and end.
+    normal: vec3<f32>,
+    /// Where the piece of the horizon starts.
+    horizon_start: vec3<f32>,
+    /// Offset of that point.
+    horizon_start_offset: vec3<f32>,
+    /// Where it ends.
+    horizon_end: vec3<f32>,
+    /// Offset of that point.
+    horizon_end_offset: vec3<f32>,
+    /// Cross product of the two.
+    horizon_normal: vec3<f32>,
 }
 
-/// Adds the next vertex.
-fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, corner: vec3<f32>) {
+/// What one lobe knows of an outline. Read and written by the library alone.
+struct LtcOutlineLobe {
+    /// First point on the lobe's horizon, in the lobe's space.
+    crossing: vec3<f32>,
+    /// Whether there is such a point.
+    crossed: bool,
+    /// Its offset from the first vertex.
+    crossing_offset: vec3<f32>,
+    /// Vector form factor so far in the lobe's space, times 2 pi and signed.
+    sum: vec3<f32>,
+}
+
+/// A polygon's outline and the lobe that it lights.
+struct LtcPolygon {
+    /// The outline.
+    outline: LtcOutline,
+    /// What the lobe knows of it.
+    lobe: LtcOutlineLobe,
+}
+
+/// Starts an outline at its first vertex.
+fn ltc_outline_begin(surface: LtcSurface, corner: vec3<f32>) -> LtcOutline {
+    let to_first = (corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM);
+    var outline: LtcOutline;
+    outline.first = corner;
+    outline.scale = 1.0 / max(ltc_extent(to_first), LTC_TINY);
+    outline.previous = corner;
+    outline.facing = 0.0;
+    outline.diffuse = 0.0;
+    outline.crossed = false;
+    return outline;
+}
+
+/// Adds the next vertex, or the first one again to close the outline.
+fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corner: vec3<f32>) {
     let origin = surface.position * LTC_HEADROOM;
-    let first_far = (*polygon).first * LTC_HEADROOM;
-    let a_far = (*polygon).previous * LTC_HEADROOM;
+    let first_far = (*outline).first * LTC_HEADROOM;
+    let a_far = (*outline).previous * LTC_HEADROOM;
     let b_far = corner * LTC_HEADROOM;
     // Lengths in units of the distance to the first vertex, but below 1e12 of anything.
     let extent = max(ltc_extent(a_far - origin), ltc_extent(b_far - origin));
-    let scale = min((*polygon).scale, 1e12 / max(extent, 1e-25));
+    let scale = min((*outline).scale, 1e12 / max(extent, 1e-25));
     let reference = (first_far - origin) * scale;
     let a = (a_far - origin) * scale;
     let b = (b_far - origin) * scale;
     let a_offset = (a_far - first_far) * scale;
     let b_offset = (b_far - first_far) * scale;
-    (*polygon).facing += dot(cross(a_offset, b_offset), reference);
-    (*polygon).previous = corner;
+    (*outline).facing += dot(cross(a_offset, b_offset), reference);
+    (*outline).previous = corner;
+    (*outline).reference = reference;
 
     // Heights of a distant light from that of the first vertex and the rise from there.
     let height = dot(surface.normal, reference);
@@ -689,10 +806,11 @@ fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
     let b_height = select(dot(surface.normal, b), height + dot(surface.normal, b_offset), near);
     let a_up = a_height > 0.0;
     let b_up = b_height > 0.0;
+    (*outline).above = a_up | b_up;
+    (*outline).closes = false;
     if (!(a_up | b_up)) {
         return;
     }
-    // What is left of the edge, added at one place: compilers copy a function to each of its calls.
     var start = a;
     var start_offset = a_offset;
     var end = b;
@@ -706,41 +824,64 @@ fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
         let t = high / max(high - min(a_height, b_height), LTC_TINY);
         let crossing = above + (below - above) * t;
         let crossing_offset = above_offset + (below_offset - above_offset) * t;
-        if ((*polygon).surface_crossed > 0.0) {
-            let base = (*polygon).surface_crossing;
-            let base_offset = (*polygon).surface_crossing_offset;
-            ltc_polygon_edge(polygon, surface, lobe, reference, select(base, crossing, a_up), select(base_offset, crossing_offset, a_up),
-                select(crossing, base, a_up), select(crossing_offset, base_offset, a_up), true);
+        if ((*outline).crossed) {
+            let base = (*outline).crossing;
+            let base_offset = (*outline).crossing_offset;
+            let horizon_start = select(base, crossing, a_up);
+            let horizon_end = select(crossing, base, a_up);
+            let horizon_start_offset = select(base_offset, crossing_offset, a_up);
+            let horizon_end_offset = select(crossing_offset, base_offset, a_up);
+            let product = ltc_edge_normal(horizon_start, horizon_end, horizon_end_offset - horizon_start_offset);
+            // An edge on the horizon has the surface's normal, whatever rounding says of its own.
+            let normal = surface.normal * dot(surface.normal, product);
+            (*outline).closes = true;
+            (*outline).horizon_start = horizon_start;
+            (*outline).horizon_end = horizon_end;
+            (*outline).horizon_start_offset = horizon_start_offset;
+            (*outline).horizon_end_offset = horizon_end_offset;
+            (*outline).horizon_normal = normal;
+            (*outline).diffuse -= dot(surface.normal, ltc_edge_from(reference, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal));
         } else {
-            (*polygon).surface_crossed = 1.0;
-            (*polygon).surface_crossing = crossing;
-            (*polygon).surface_crossing_offset = crossing_offset;
+            (*outline).crossed = true;
+            (*outline).crossing = crossing;
+            (*outline).crossing_offset = crossing_offset;
         }
         start = select(crossing, a, a_up);
         start_offset = select(crossing_offset, a_offset, a_up);
         end = select(b, crossing, a_up);
         end_offset = select(b_offset, crossing_offset, a_up);
     }
-    ltc_polygon_edge(polygon, surface, lobe, reference, start, start_offset, end, end_offset, false);
+    let normal = ltc_edge_normal(start, end, end_offset - start_offset);
+    (*outline).start = start;
+    (*outline).end = end;
+    (*outline).start_offset = start_offset;
+    (*outline).end_offset = end_offset;
+    (*outline).normal = normal;
+    (*outline).diffuse -= dot(surface.normal, ltc_edge_from(reference, start, start_offset, end, end_offset, normal));
 }
 
-/// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added. Its
-/// error is that of ltc_quad, and grows with the root of the number of vertices.
-fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, two_sided: bool) -> vec3<f32> {
-    let first = (*polygon).first;
-    ltc_polygon_add(polygon, surface, lobe, first);
-    let front = (*polygon).facing < 0.0;
-    return ltc_value(surface, lobe, (*polygon).diffuse * LTC_OVER_TWO_PI, (*polygon).lobe_sum * LTC_OVER_TWO_PI, front, two_sided);
+/// Starts a lobe's part of an outline.
+fn ltc_outline_lobe_begin() -> LtcOutlineLobe {
+    var sum: LtcOutlineLobe;
+    sum.crossed = false;
+    sum.sum = vec3<f32>(0.0);
+    return sum;
 }
 
-/// Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
-fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, closing: bool) {
-    let product = ltc_edge_normal(a, b, b_offset - a_offset);
-    // An edge on the horizon has the surface's normal, whatever rounding says of its own.
-    let normal = select(product, surface.normal * dot(surface.normal, product), closing);
-    (*polygon).diffuse -= dot(surface.normal, ltc_edge_from(reference, a, a_offset, b, b_offset, normal));
+/// Adds what ltc_outline_add has last added to `outline` to a lobe.
+fn ltc_outline_lobe_add(sum: ptr<function, LtcOutlineLobe>, outline: LtcOutline, lobe: LtcLobe) {
+    if (!outline.above) {
+        return;
+    }
+    let reference = ltc_transform(lobe, outline.reference);
+    if (outline.closes) {
+        ltc_outline_lobe_edge(sum, lobe, reference, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal);
+    }
+    ltc_outline_lobe_edge(sum, lobe, reference, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal);
+}
 
-    let m = ltc_transform(lobe, reference);
+/// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
+fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, normal: vec3<f32>) {
     let m_a = ltc_transform(lobe, a);
     let m_b = ltc_transform(lobe, b);
     let m_a_offset = ltc_transform(lobe, a_offset);
@@ -763,24 +904,61 @@ fn ltc_polygon_edge(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lob
         let t = max(above.z, 0.0) / max(above.z - below.z, LTC_TINY);
         let crossing = ltc_crossing(above, below, select(-m_normal, m_normal, a_up));
         let crossing_offset = above_offset + (below_offset - above_offset) * t;
-        if ((*polygon).lobe_crossed > 0.0) {
-            let base = (*polygon).lobe_crossing;
-            let base_offset = (*polygon).lobe_crossing_offset;
+        if ((*sum).crossed) {
+            let base = (*sum).crossing;
+            let base_offset = (*sum).crossing_offset;
             let horizon_start = select(base, crossing, a_up);
             let horizon_end = select(crossing, base, a_up);
-            (*polygon).lobe_sum -= ltc_edge_from(m, horizon_start, select(base_offset, crossing_offset, a_up), horizon_end,
+            (*sum).sum -= ltc_edge_from(reference, horizon_start, select(base_offset, crossing_offset, a_up), horizon_end,
                 select(crossing_offset, base_offset, a_up), ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start));
         } else {
-            (*polygon).lobe_crossed = 1.0;
-            (*polygon).lobe_crossing = crossing;
-            (*polygon).lobe_crossing_offset = crossing_offset;
+            (*sum).crossed = true;
+            (*sum).crossing = crossing;
+            (*sum).crossing_offset = crossing_offset;
         }
         start = select(crossing, m_a, a_up);
         start_offset = select(crossing_offset, m_a_offset, a_up);
         end = select(m_b, crossing, a_up);
         end_offset = select(m_b_offset, crossing_offset, a_up);
     }
-    (*polygon).lobe_sum -= ltc_edge_from(m, start, start_offset, end, end_offset, m_normal);
+    (*sum).sum -= ltc_edge_from(reference, start, start_offset, end, end_offset, m_normal);
+}
+
+/// The form factor of a closed outline, 0 to 1. Its error is that of ltc_quad, and grows with the root of the number
+/// of vertices.
+fn ltc_outline_diffuse(outline: LtcOutline, two_sided: bool) -> f32 {
+    return ltc_received(outline.diffuse * LTC_OVER_TWO_PI, outline.facing < 0.0, two_sided);
+}
+
+/// The vector form factor of a closed outline in a lobe's space, cut at both horizons, towards the light.
+fn ltc_outline_lobe(outline: LtcOutline, sum: LtcOutlineLobe, two_sided: bool) -> vec3<f32> {
+    return ltc_received_vector(sum.sum * LTC_OVER_TWO_PI, outline.facing < 0.0, two_sided);
+}
+
+/// Starts a polygon at its first vertex.
+fn ltc_polygon_begin(surface: LtcSurface, corner: vec3<f32>) -> LtcPolygon {
+    var polygon: LtcPolygon;
+    polygon.outline = ltc_outline_begin(surface, corner);
+    polygon.lobe = ltc_outline_lobe_begin();
+    return polygon;
+}
+
+/// Adds the next vertex.
+fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, corner: vec3<f32>) {
+    var outline = (*polygon).outline;
+    var sum = (*polygon).lobe;
+    ltc_outline_add(&outline, surface, corner);
+    ltc_outline_lobe_add(&sum, outline, lobe);
+    (*polygon).outline = outline;
+    (*polygon).lobe = sum;
+}
+
+/// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
+fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, two_sided: bool) -> vec3<f32> {
+    let first = (*polygon).outline.first;
+    ltc_polygon_add(polygon, surface, lobe, first);
+    let form_factor = ltc_outline_diffuse((*polygon).outline, two_sided);
+    return ltc_value(surface, lobe, form_factor, ltc_outline_lobe((*polygon).outline, (*polygon).lobe, two_sided));
 }
 
 /// ltc_edge_about for points and their offsets from `origin`. A point far from `origin` may as well be

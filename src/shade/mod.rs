@@ -23,15 +23,20 @@ mod quad;
 mod real;
 mod surface;
 
-pub use polygon::{LtcPolygon, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end};
+pub use polygon::{
+    LtcOutline, LtcOutlineLobe, LtcPolygon, ltc_outline_add, ltc_outline_begin, ltc_outline_diffuse,
+    ltc_outline_lobe, ltc_outline_lobe_add, ltc_outline_lobe_begin, ltc_polygon_add, ltc_polygon_begin,
+    ltc_polygon_end,
+};
 pub use quad::{
-    ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_edge_excess, ltc_edge_near,
-    ltc_edge_normal, ltc_edge_part, ltc_far_offset, ltc_far_pentagon, ltc_is_above, ltc_offset, ltc_pentagon,
-    ltc_quad,
+    LtcQuad, ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_edge_excess,
+    ltc_edge_near, ltc_edge_normal, ltc_edge_part, ltc_far_offset, ltc_far_pentagon, ltc_is_above,
+    ltc_offset, ltc_pentagon, ltc_quad, ltc_quad_begin, ltc_quad_diffuse, ltc_quad_form_factor,
+    ltc_quad_lobe,
 };
 pub use real::{Real, Vector, angle_excess};
 pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
-    ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates, ltc_transform, ltc_transform_normal,
-    ltc_value,
+    ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates,
+    ltc_transform, ltc_transform_normal, ltc_value,
 };

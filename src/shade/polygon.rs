@@ -3,21 +3,38 @@
 use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above, ltc_offset};
 use super::real::{Real, Vector};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal, ltc_value,
-    unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
+    ltc_transform, ltc_transform_normal, ltc_value, unit,
 };
 
-/// State of a polygon that is given vertex by vertex.
+/// State of a polygon that is given vertex by vertex, and its last edge, cut at the surface's horizon: what all
+/// lobes share of the work on it.
 #[derive(Clone, Copy, Debug)]
-pub struct LtcPolygon<R: Real> {
+pub struct LtcOutline<R: Real> {
     first: R::Vec3,
     scale: R,
     previous: R::Vec3,
     facing: R,
     diffuse: R,
-    lobe_sum: R::Vec3,
-    surface_crossing: Option<Point<R>>,
-    lobe_crossing: Option<Point<R>>,
+    crossing: Option<Point<R>>,
+    /// The first vertex, scaled as the points of the last edges.
+    reference: R::Vec3,
+    /// What the last edge left above the surface, each with the cross product of its ends.
+    edges: [Option<(Edge<R>, R::Vec3)>; 2],
+}
+
+/// What one lobe knows of an outline.
+#[derive(Clone, Copy, Debug)]
+pub struct LtcOutlineLobe<R: Real> {
+    crossing: Option<Point<R>>,
+    sum: R::Vec3,
+}
+
+/// A polygon's outline and the lobe that it lights.
+#[derive(Clone, Copy, Debug)]
+pub struct LtcPolygon<R: Real> {
+    outline: LtcOutline<R>,
+    lobe: LtcOutlineLobe<R>,
 }
 
 /// A point and its offset from the polygon's first vertex, which is known more precisely than the
@@ -34,41 +51,37 @@ impl<R: Real> Point<R> {
     }
 }
 
-/// Starts a polygon at its first vertex.
-pub fn ltc_polygon_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> LtcPolygon<R> {
+/// Starts an outline at its first vertex.
+pub fn ltc_outline_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> LtcOutline<R> {
     let zero: R = R::new(0.0);
     let headroom: R = R::new(LTC_HEADROOM);
     let to_first = corner * headroom - surface.position * headroom;
-    LtcPolygon {
+    LtcOutline {
         first: corner,
         scale: R::new(1.0) / ltc_extent::<R>(to_first).max(R::new(LTC_TINY)),
         previous: corner,
         facing: zero,
         diffuse: zero,
-        lobe_sum: R::Vec3::new(zero, zero, zero),
-        surface_crossing: None,
-        lobe_crossing: None,
+        crossing: None,
+        reference: R::Vec3::new(zero, zero, zero),
+        edges: [None, None],
     }
 }
 
-/// Adds the next vertex.
-pub fn ltc_polygon_add<R: Real>(
-    polygon: &mut LtcPolygon<R>,
-    surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
-    corner: R::Vec3,
-) {
+/// Adds the next vertex, or the first one again to close the outline.
+pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurface<R>, corner: R::Vec3) {
     let headroom: R = R::new(LTC_HEADROOM);
     let origin = surface.position * headroom;
-    let first = polygon.first * headroom;
-    let (a, b) = (polygon.previous * headroom, corner * headroom);
+    let first = outline.first * headroom;
+    let (a, b) = (outline.previous * headroom, corner * headroom);
     let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
-    let scale = polygon.scale.min(R::new(1e12) / extent.max(R::new(1e-25)));
+    let scale = outline.scale.min(R::new(1e12) / extent.max(R::new(1e-25)));
     let place = |v: R::Vec3| Point::<R> { at: (v - origin) * scale, offset: (v - first) * scale };
     let reference = place(first).at;
     let (a, b) = (place(a), place(b));
-    polygon.facing += a.offset.cross(b.offset).dot(reference);
-    polygon.previous = corner;
+    outline.facing += a.offset.cross(b.offset).dot(reference);
+    outline.previous = corner;
+    outline.reference = reference;
 
     let normal = surface.normal;
     let height = normal.dot(reference);
@@ -78,13 +91,67 @@ pub fn ltc_polygon_add<R: Real>(
         [a, b].map(|p| if near { height + normal.dot(p.offset) } else { normal.dot(p.at) });
     let zero: R = R::new(0.0);
     let ends = [(a, a_height, a_height > zero), (b, b_height, b_height > zero)];
-    let edges = cut(ends[0], ends[1], &mut polygon.surface_crossing, |above, below, t| Point {
+    let edges = cut(ends[0], ends[1], &mut outline.crossing, |above, below, t| Point {
         at: above.at + (below.at - above.at) * t,
         offset: above.offset + (below.offset - above.offset) * t,
     });
-    for (edge, closing) in edges.into_iter().flatten() {
-        ltc_polygon_edge(polygon, surface, lobe, reference, edge, closing);
+    outline.edges = edges.map(|edge| {
+        edge.map(|((start, end), closing)| {
+            let product = ltc_edge_normal::<R>(start.at, end.at, end.offset - start.offset);
+            ((start, end), if closing { normal * normal.dot(product) } else { product })
+        })
+    });
+    for (edge, product) in outline.edges.into_iter().flatten() {
+        outline.diffuse += -normal.dot(ltc_edge_from(reference, edge, product));
     }
+}
+
+/// Starts a lobe's part of an outline.
+pub fn ltc_outline_lobe_begin<R: Real>() -> LtcOutlineLobe<R> {
+    let zero: R = R::new(0.0);
+    LtcOutlineLobe { crossing: None, sum: R::Vec3::new(zero, zero, zero) }
+}
+
+/// Adds what [`ltc_outline_add`] has last added to `outline` to a lobe.
+pub fn ltc_outline_lobe_add<R: Real>(
+    sum: &mut LtcOutlineLobe<R>,
+    outline: &LtcOutline<R>,
+    lobe: &LtcLobe<R>,
+) {
+    let reference = ltc_transform(lobe, outline.reference);
+    for (edge, normal) in outline.edges.into_iter().flatten() {
+        ltc_outline_lobe_edge(sum, lobe, reference, edge, normal);
+    }
+}
+
+/// The form factor of a closed outline, 0…1.
+pub fn ltc_outline_diffuse<R: Real>(outline: &LtcOutline<R>, two_sided: bool) -> R {
+    ltc_received(outline.diffuse * R::new(OVER_TWO_PI), outline.facing < R::new(0.0), two_sided)
+}
+
+/// The vector form factor of a closed outline in a lobe's space, cut at both horizons, towards the light.
+pub fn ltc_outline_lobe<R: Real>(
+    outline: &LtcOutline<R>,
+    sum: &LtcOutlineLobe<R>,
+    two_sided: bool,
+) -> R::Vec3 {
+    ltc_received_vector::<R>(sum.sum * R::new(OVER_TWO_PI), outline.facing < R::new(0.0), two_sided)
+}
+
+/// Starts a polygon at its first vertex.
+pub fn ltc_polygon_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> LtcPolygon<R> {
+    LtcPolygon { outline: ltc_outline_begin(surface, corner), lobe: ltc_outline_lobe_begin() }
+}
+
+/// Adds the next vertex.
+pub fn ltc_polygon_add<R: Real>(
+    polygon: &mut LtcPolygon<R>,
+    surface: &LtcSurface<R>,
+    lobe: &LtcLobe<R>,
+    corner: R::Vec3,
+) {
+    ltc_outline_add(&mut polygon.outline, surface, corner);
+    ltc_outline_lobe_add(&mut polygon.lobe, &polygon.outline, lobe);
 }
 
 /// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
@@ -94,17 +161,11 @@ pub fn ltc_polygon_end<R: Real>(
     lobe: &LtcLobe<R>,
     two_sided: bool,
 ) -> R::Vec3 {
-    let first = polygon.first;
+    let first = polygon.outline.first;
     ltc_polygon_add(polygon, surface, lobe, first);
-    let over_two_pi: R = R::new(OVER_TWO_PI);
-    ltc_value(
-        surface,
-        lobe,
-        polygon.diffuse * over_two_pi,
-        polygon.lobe_sum * over_two_pi,
-        polygon.facing < R::new(0.0),
-        two_sided,
-    )
+    let form_factor = ltc_outline_diffuse(&polygon.outline, two_sided);
+    let toward = ltc_outline_lobe(&polygon.outline, &polygon.lobe, two_sided);
+    ltc_value(surface, lobe, form_factor, toward)
 }
 
 /// A directed edge.
@@ -141,26 +202,20 @@ fn cut<R: Real>(
     [closing, Some((if a_up { (a, crossing) } else { (crossing, b) }, false))]
 }
 
-/// Adds one edge that lies above the surface, or with `closing` on its horizon, to both integrals.
-fn ltc_polygon_edge<R: Real>(
-    polygon: &mut LtcPolygon<R>,
-    surface: &LtcSurface<R>,
+/// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
+fn ltc_outline_lobe_edge<R: Real>(
+    sum: &mut LtcOutlineLobe<R>,
     lobe: &LtcLobe<R>,
     reference: R::Vec3,
     (a, b): Edge<R>,
-    closing: bool,
+    normal: R::Vec3,
 ) {
-    let product = ltc_edge_normal::<R>(a.at, b.at, b.offset - a.offset);
-    let normal = if closing { surface.normal * surface.normal.dot(product) } else { product };
-    polygon.diffuse += -surface.normal.dot(ltc_edge_from(reference, (a, b), normal));
-
-    let reference = ltc_transform(lobe, reference);
     let normal = ltc_transform_normal(lobe, normal);
     let (a, b) = (a.transform(lobe), b.transform(lobe));
     let (a_up, b_up) = (ltc_is_above::<R>(a.at), ltc_is_above::<R>(b.at));
     let turned = if a_up { normal } else { -normal };
     let ends = [(a, a.at.z(), a_up), (b, b.at.z(), b_up)];
-    let edges = cut(ends[0], ends[1], &mut polygon.lobe_crossing, |above, below, t| Point {
+    let edges = cut(ends[0], ends[1], &mut sum.crossing, |above, below, t| Point {
         at: ltc_crossing::<R>(above.at, below.at, turned),
         offset: above.offset + (below.offset - above.offset) * t,
     });
@@ -168,7 +223,7 @@ fn ltc_polygon_edge<R: Real>(
         let (start, end) = edge;
         let horizon = ltc_edge_normal::<R>(start.at, end.at, end.at - start.at);
         let normal = if closing { horizon } else { normal };
-        polygon.lobe_sum = polygon.lobe_sum - ltc_edge_from(reference, edge, normal);
+        sum.sum = sum.sum - ltc_edge_from(reference, edge, normal);
     }
 }
 

@@ -2,8 +2,8 @@
 
 use super::real::{Real, Vector};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal, ltc_value,
-    unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
+    ltc_transform, ltc_transform_normal, ltc_value, unit,
 };
 
 pub(super) const OVER_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
@@ -194,18 +194,30 @@ pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5]) -> R::
     -(reference * reference.dot(area) + reference.cross(across * R::new(0.5)) + excess)
 }
 
-/// The value (diffuse, specular, fresnel) of a convex quad light; see the include for its domain
-/// and its error.
-pub fn ltc_quad<R: Real>(
+/// A convex quad light, cut at the surface's horizon: what all lobes share of the work on it.
+#[derive(Clone, Copy, Debug)]
+pub struct LtcQuad<R: Real> {
+    /// The vertices of the pentagon that is left of the quad, from `base`.
+    vertices: [R::Vec3; 5],
+    /// Cross products of each vertex and the next one, both from the surface point.
+    normals: [R::Vec3; 5],
+    /// Zero for a near light; for a distant one the quad's first vertex from the surface point.
+    base: R::Vec3,
+    reaches: bool,
+    distant: bool,
+    front: bool,
+    two_sided: bool,
+}
+
+/// Cuts a convex quad light at the surface's horizon.
+pub fn ltc_quad_begin<R: Real>(
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
     vertices: [R::Vec3; 4],
     two_sided: bool,
-) -> R::Vec3 {
+) -> LtcQuad<R> {
     let zero: R = R::new(0.0);
     let nothing = R::Vec3::new(zero, zero, zero);
     let headroom: R = R::new(LTC_HEADROOM);
-    let over_two_pi: R = R::new(OVER_TWO_PI);
     let origin = surface.position * headroom;
     let far = vertices.map(|v| v * headroom);
     let full = far.map(|v| v - origin);
@@ -215,9 +227,17 @@ pub fn ltc_quad<R: Real>(
     let sides = [far[1], far[2], far[3]].map(|v| (v - far[0]) * scale);
     let p_a = full[0] * scale;
     let front = sides[1].cross(sides[2] - sides[0]).dot(p_a) < zero;
-
+    let mut quad = LtcQuad {
+        vertices: [nothing; 5],
+        normals: [nothing; 5],
+        base: nothing,
+        reaches: false,
+        distant: false,
+        front,
+        two_sided,
+    };
     if !(front | two_sided) {
-        return nothing;
+        return quad;
     }
     let size_squared = largest(sides.map(|side| side.dot(side)));
     let distant = size_squared < R::new(0.0625) * p_a.dot(p_a);
@@ -230,7 +250,7 @@ pub fn ltc_quad<R: Real>(
     let heights = [a_height, b_height, c_height, d_height];
     let up = heights.map(|height| height > zero);
     if up == [false; 4] {
-        return nothing;
+        return quad;
     }
     let mut v = [p[0], p[1], p[2], p[3], p[3]];
     if up != [true; 4] {
@@ -256,29 +276,72 @@ pub fn ltc_quad<R: Real>(
         ltc_edge_normal::<R>(base + a, base + b, b - a)
     });
     normals[3] = surface.normal * surface.normal.dot(normals[3]);
-    let l = v.map(|v| ltc_transform(lobe, v));
-    let l_base = ltc_transform(lobe, base);
-    let l_normals = normals.map(|normal| ltc_transform_normal(lobe, normal));
-    let lowest = l_base.z() + l.iter().fold(l[0].z(), |low, v| low.min(v.z()));
-    let sum = if distant {
-        surface.normal.dot(ltc_far_pentagon::<R>(p_a, v))
-    } else {
-        let inverses = v.map(inverse_length::<R>);
-        let units: [R::Vec3; 5] = core::array::from_fn(|i| v[i] * inverses[i]);
-        let edge = |i: usize| {
-            let next = (i + 1) % 5;
-            ltc_edge::<R>(units[i], units[next], normals[i], inverses[i] * inverses[next])
-        };
-        -surface.normal.dot(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
+    quad.reaches = true;
+    quad.distant = distant;
+    quad.vertices = v;
+    quad.normals = normals;
+    quad.base = base;
+    quad
+}
+
+/// Vector form factor, times 2π and signed, of what the surface's horizon leaves of a quad, in the caller's space.
+pub fn ltc_quad_form_factor<R: Real>(quad: &LtcQuad<R>) -> R::Vec3 {
+    let v = quad.vertices;
+    if quad.distant {
+        return ltc_far_pentagon::<R>(quad.base, v);
+    }
+    let inverses = v.map(inverse_length::<R>);
+    let units: [R::Vec3; 5] = core::array::from_fn(|i| v[i] * inverses[i]);
+    let edge = |i: usize| {
+        let next = (i + 1) % 5;
+        ltc_edge::<R>(units[i], units[next], quad.normals[i], inverses[i] * inverses[next])
     };
-    let lobe_size = l.iter().fold(zero, |size, v| size.max(v.dot(*v)));
-    let small = lobe_size < R::new(0.0625) * l_base.dot(l_base);
-    let lobe_sum = if distant & (lowest > zero) & small {
-        ltc_far_pentagon::<R>(l_base, l)
+    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
+}
+
+/// The form factor of a quad, 0…1.
+pub fn ltc_quad_diffuse<R: Real>(surface: &LtcSurface<R>, quad: &LtcQuad<R>) -> R {
+    if !quad.reaches {
+        return R::new(0.0);
+    }
+    let sum = surface.normal.dot(ltc_quad_form_factor(quad));
+    ltc_received(sum * R::new(OVER_TWO_PI), quad.front, quad.two_sided)
+}
+
+/// The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
+pub fn ltc_quad_lobe<R: Real>(quad: &LtcQuad<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
+    let zero: R = R::new(0.0);
+    if !quad.reaches {
+        return R::Vec3::new(zero, zero, zero);
+    }
+    let v = quad.vertices.map(|v| ltc_transform(lobe, v));
+    let base = ltc_transform(lobe, quad.base);
+    let lowest = base.z() + v.iter().fold(v[0].z(), |low, v| low.min(v.z()));
+    let size = v.iter().fold(zero, |size, v| size.max(v.dot(*v)));
+    let small = size < R::new(0.0625) * base.dot(base);
+    let sum = if quad.distant & (lowest > zero) & small {
+        ltc_far_pentagon::<R>(base, v)
     } else {
-        ltc_pentagon::<R>(l.map(|v| l_base + v), l_normals)
+        let normals = quad.normals.map(|normal| ltc_transform_normal(lobe, normal));
+        ltc_pentagon::<R>(v.map(|v| base + v), normals)
     };
-    ltc_value(surface, lobe, sum * over_two_pi, lobe_sum * over_two_pi, front, two_sided)
+    ltc_received_vector::<R>(sum * R::new(OVER_TWO_PI), quad.front, quad.two_sided)
+}
+
+/// The value (diffuse, specular, fresnel) of a convex quad light; see the include for its domain
+/// and its error.
+pub fn ltc_quad<R: Real>(
+    surface: &LtcSurface<R>,
+    lobe: &LtcLobe<R>,
+    vertices: [R::Vec3; 4],
+    two_sided: bool,
+) -> R::Vec3 {
+    let quad = ltc_quad_begin(surface, vertices, two_sided);
+    if !quad.reaches {
+        let zero: R = R::new(0.0);
+        return R::Vec3::new(zero, zero, zero);
+    }
+    ltc_value(surface, lobe, ltc_quad_diffuse(surface, &quad), ltc_quad_lobe(&quad, lobe))
 }
 
 fn largest<R: Real>(values: [R; 3]) -> R {

@@ -36,25 +36,24 @@ pub struct LtcSurface<R: Real> {
 /// One lobe: a linearly transformed cosine and the weights of the BRDF's two parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LtcLobe<R: Real> {
-    /// Entries (x, y, z, w) of the inverse matrix, rows (x, 0, z), (0, 1, 0), (y, 0, w).
-    pub entries: R::Vec4,
-    /// First row of the matrix that leads vectors from the caller's space to the lobe's.
+    /// First row of the inverse matrix: it leads vectors from the caller's space to the lobe's.
     pub axis_x: R::Vec3,
     /// ∫ f·cos over the hemisphere.
     pub albedo: R,
-    /// Second row of that matrix.
+    /// Second row of the inverse matrix.
     pub axis_y: R::Vec3,
     /// ∫ f·cos·(1 − v·h)⁵ over the hemisphere.
     pub fresnel: R,
-    /// Third row of that matrix.
+    /// Third row of the inverse matrix.
     pub axis_z: R::Vec3,
     /// Share of the lobe's energy above the surface.
     pub share: R,
-    /// First row of the matrix that leads cross products of vectors there.
+    /// First row of its cofactors: they lead cross products of vectors to the lobe's space, and directions, as
+    /// the transpose, back.
     pub normal_x: R::Vec3,
-    /// Determinant of the entries.
-    pub volume: R,
-    /// Third row of that matrix; the second is `volume` times `axis_y`.
+    /// Second row of the cofactors.
+    pub normal_y: R::Vec3,
+    /// Third row of the cofactors.
     pub normal_z: R::Vec3,
 }
 
@@ -127,7 +126,6 @@ pub fn ltc_lobe<R: Real>(surface: &LtcSurface<R>, shape: R::Vec4, amplitude: R::
     let m = [c * c + a * x, a * s * y, s * (c + a * z), a * w];
     let half: R = R::new(0.5);
     LtcLobe {
-        entries: m.into(),
         axis_x: surface.tangent * m[0] + surface.normal * m[2],
         albedo,
         axis_y: surface.bitangent,
@@ -135,7 +133,7 @@ pub fn ltc_lobe<R: Real>(surface: &LtcSurface<R>, shape: R::Vec4, amplitude: R::
         axis_z: surface.tangent * m[1] + surface.normal * m[3],
         share: half + half * m[0] * (m[0] * m[0] + m[1] * m[1]).max(R::new(LTC_TINY)).inverse_sqrt(),
         normal_x: surface.tangent * m[3] - surface.normal * m[1],
-        volume: m[0] * m[3] - m[1] * m[2],
+        normal_y: surface.bitangent * (m[0] * m[3] - m[1] * m[2]),
         normal_z: surface.normal * m[0] - surface.tangent * m[2],
     }
 }
@@ -147,7 +145,7 @@ pub fn ltc_transform<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
 
 /// The cross product of two vectors from the surface point, in the lobe's space.
 pub fn ltc_transform_normal<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
-    R::Vec3::new(lobe.normal_x.dot(v), lobe.volume * lobe.axis_y.dot(v), lobe.normal_z.dot(v))
+    R::Vec3::new(lobe.normal_x.dot(v), lobe.normal_y.dot(v), lobe.normal_z.dot(v))
 }
 
 /// Reflected radiance from the value (diffuse, specular, fresnel) of a light.
@@ -168,36 +166,45 @@ pub fn ltc_specular<R: Real>(
     toward: R::Vec3,
 ) -> R::Vec2 {
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
-    let [x, y, z, w] = lobe.entries.into();
-    let direction = R::Vec3::new(
-        w * toward.x() - z * toward.z(),
-        lobe.volume * toward.y(),
-        x * toward.z() - y * toward.x(),
+    let direction = ltc_direction::<R>(
+        lobe.normal_x * toward.x() + lobe.normal_y * toward.y() + lobe.normal_z * toward.z(),
     );
-    let unit = ltc_direction::<R>(direction);
-    let half_cosine =
-        (half + half * (surface.sin_view * unit.x() + surface.cos_view * unit.z())).clamp(zero, one);
+    let along =
+        surface.sin_view * surface.tangent.dot(direction) + surface.cos_view * surface.normal.dot(direction);
+    let half_cosine = (half + half * along).clamp(zero, one);
     let f = one - half_cosine * half_cosine.max(R::new(1e-20)).inverse_sqrt();
     let schlick = f * f * f * f * f;
     let whole = coverage * coverage;
     [coverage * lobe.albedo, coverage * (lobe.albedo * schlick * (one - whole) + lobe.fresnel * whole)].into()
 }
 
-/// The value (diffuse, specular, fresnel) from the signed form factors over the horizons.
+/// The value (diffuse, specular, fresnel) from the form factor over the surface's horizon and the vector form
+/// factor over both horizons in the lobe's space, both of the light that the surface receives.
 pub fn ltc_value<R: Real>(
     surface: &LtcSurface<R>,
     lobe: &LtcLobe<R>,
     form_factor: R,
-    vector: R::Vec3,
-    front: bool,
-    two_sided: bool,
+    toward: R::Vec3,
 ) -> R::Vec3 {
-    let (zero, one) = (R::new(0.0), R::new(1.0));
-    let emits = front | two_sided;
-    let flipped = two_sided & (vector.z() < zero);
-    let toward = if flipped { -vector } else { vector };
-    let diffuse = if two_sided { form_factor.abs() } else { form_factor };
-    let coverage = if emits { (toward.z() / lobe.share).clamp(zero, one) } else { zero };
+    let coverage = (toward.z() / lobe.share).clamp(R::new(0.0), R::new(1.0));
     let [specular, fresnel] = ltc_specular(surface, lobe, coverage, toward).into();
-    R::Vec3::new(if emits { diffuse.clamp(zero, one) } else { zero }, specular, fresnel)
+    R::Vec3::new(form_factor, specular, fresnel)
+}
+
+/// The form factor of the light that arrives, from a signed one; `front` tells whether the light shows its
+/// emitting side.
+pub fn ltc_received<R: Real>(form_factor: R, front: bool, two_sided: bool) -> R {
+    let (zero, one) = (R::new(0.0), R::new(1.0));
+    let received = if two_sided { form_factor.abs() } else { form_factor };
+    if front | two_sided { received.clamp(zero, one) } else { zero }
+}
+
+/// [`ltc_received`] for a vector form factor, whose sign is that of its z.
+pub fn ltc_received_vector<R: Real>(form_factor: R::Vec3, front: bool, two_sided: bool) -> R::Vec3 {
+    let zero: R = R::new(0.0);
+    match (front | two_sided, two_sided & (form_factor.z() < zero)) {
+        (true, false) => form_factor,
+        (true, true) => -form_factor,
+        (false, _) => R::Vec3::new(zero, zero, zero),
+    }
 }
