@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use softbox::device::Device;
-use softbox::light::{is_convex_quad, ltc_light};
+use softbox::light::{is_convex_quad, light_value};
 use softbox::scene::{Comparison, Hit, Panel, Scene, render_truth, write_png};
 use softbox::shade::ltc_surface;
 use softbox::table::Table;
@@ -206,8 +206,7 @@ fn exact(scene: &Scene, table: &Table, column: u32, row: u32, [width, height]: [
     let lobe = table.lobe(&surface);
     let mut sum = DVec3::ZERO;
     for light in &scene.lights {
-        let quad = is_convex_quad(&light.points);
-        let value = ltc_light(&surface, &lobe, &light.points, quad, light.two_sided);
+        let value = light_value(&surface, &lobe, &light.shape);
         sum += light.radiance
             * (material.base_colour * value.x + material.f0 * (value.y - value.z) + material.f90 * value.z);
     }

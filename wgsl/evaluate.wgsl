@@ -14,22 +14,31 @@ struct EvaluateSurface {
     spare_b: f32,
 }
 
-/// A polygon light: `count` vertices from `first` on.
+/// A light: `count` vectors from `first` on.
 struct EvaluateLight {
     first: u32,
     count: u32,
-    /// Sum of EVALUATE_TWO_SIDED and EVALUATE_CONVEX_QUAD, where they apply.
+    /// Sum of EVALUATE_TWO_SIDED, EVALUATE_CONVEX_QUAD and EVALUATE_CAPS, where they apply.
     flags: u32,
-    spare: u32,
+    /// EVALUATE_POLYGON, EVALUATE_DISK, EVALUATE_SPHERE or EVALUATE_TUBE.
+    kind: u32,
 }
 
 const EVALUATE_TWO_SIDED: u32 = 1u;
 /// The light has four vertices and is convex.
 const EVALUATE_CONVEX_QUAD: u32 = 2u;
+const EVALUATE_CAPS: u32 = 4u;
+/// A light's vectors are its vertices.
+const EVALUATE_POLYGON: u32 = 0u;
+/// They are its centre and its half-axes.
+const EVALUATE_DISK: u32 = 1u;
+/// They are its centre, with the radius.
+const EVALUATE_SPHERE: u32 = 2u;
+/// They are its ends, the first with the radius.
+const EVALUATE_TUBE: u32 = 3u;
 
 @group(0) @binding(0) var<storage, read> surfaces: array<EvaluateSurface>;
 @group(0) @binding(1) var<storage, read> lights: array<EvaluateLight>;
-/// The fourth component is not used.
 @group(0) @binding(2) var<storage, read> vertices: array<vec4<f32>>;
 /// Indices of a surface and a light.
 @group(0) @binding(3) var<storage, read> pairs: array<vec2<u32>>;
@@ -52,11 +61,18 @@ fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let table_size = f32(textureDimensions(table).x);
     let lobe = ltc_lobe_from_table(surface, table, table_sampler, table_size);
     let first = light.first;
+    let a = vertices[first];
     var value: vec3<f32>;
-    if ((light.flags & EVALUATE_CONVEX_QUAD) != 0u) {
-        value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
+    if (light.kind == EVALUATE_DISK) {
+        value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+    } else if (light.kind == EVALUATE_SPHERE) {
+        value = ltc_sphere(surface, lobe, a.xyz, a.w);
+    } else if (light.kind == EVALUATE_TUBE) {
+        value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & EVALUATE_CAPS) != 0u);
+    } else if ((light.flags & EVALUATE_CONVEX_QUAD) != 0u) {
+        value = ltc_quad(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
     } else {
-        var polygon = ltc_polygon_begin(surface, vertices[first].xyz);
+        var polygon = ltc_polygon_begin(surface, a.xyz);
         for (var i = 1u; i < light.count; i++) {
             ltc_polygon_add(&polygon, surface, lobe, vertices[first + i].xyz);
         }

@@ -53,18 +53,19 @@ struct RenderObject {
     spare_c: f32,
 }
 
-/// A polygon light: `count` vertices from `first` on.
+/// A light: `count` vectors from `first` on.
 struct RenderLight {
     radiance: vec3<f32>,
-    first: u32,
-    /// Unit normal of the emitting side.
-    normal: vec3<f32>,
-    count: u32,
-    /// Sum of RENDER_TWO_SIDED and RENDER_CONVEX_QUAD, where they apply.
-    flags: u32,
     spare_a: u32,
+    /// Unit normal of the emitting side of a polygon or disk.
+    normal: vec3<f32>,
     spare_b: u32,
-    spare_c: u32,
+    first: u32,
+    count: u32,
+    /// Sum of RENDER_TWO_SIDED, RENDER_CONVEX_QUAD and RENDER_CAPS, where they apply.
+    flags: u32,
+    /// RENDER_POLYGON, RENDER_DISK, RENDER_SPHERE_LIGHT or RENDER_TUBE.
+    kind: u32,
 }
 
 /// What a ray meets first.
@@ -82,13 +83,21 @@ const RENDER_BOX: u32 = 1u;
 const RENDER_TWO_SIDED: u32 = 1u;
 /// The light has four vertices and is convex.
 const RENDER_CONVEX_QUAD: u32 = 2u;
+const RENDER_CAPS: u32 = 4u;
+/// A light's vectors are its vertices.
+const RENDER_POLYGON: u32 = 0u;
+/// They are its centre and its half-axes.
+const RENDER_DISK: u32 = 1u;
+/// They are its centre, with the radius.
+const RENDER_SPHERE_LIGHT: u32 = 2u;
+/// They are its ends, the first with the radius.
+const RENDER_TUBE: u32 = 3u;
 /// Farther than any surface.
 const RENDER_FAR: f32 = 1e30;
 
 @group(0) @binding(0) var<storage, read> settings: RenderSettings;
 @group(0) @binding(1) var<storage, read> objects: array<RenderObject>;
 @group(0) @binding(2) var<storage, read> lights: array<RenderLight>;
-/// The fourth component is not used.
 @group(0) @binding(3) var<storage, read> vertices: array<vec4<f32>>;
 /// Where in a pixel to sample it, 0 to 1.
 @group(0) @binding(4) var<storage, read> samples: array<vec2<f32>>;
@@ -165,14 +174,57 @@ fn render_meet(object: RenderObject, origin: vec3<f32>, direction: vec3<f32>) ->
     return hit;
 }
 
+/// Distance at which the ray first meets a sphere from outside, or RENDER_FAR.
+fn render_meet_sphere(centre: vec3<f32>, radius: f32, origin: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let half = dot(centre - origin, direction);
+    let aside = origin - centre + direction * half;
+    let depth_squared = radius * radius - dot(aside, aside);
+    let distance = half - sqrt(max(depth_squared, 1e-30));
+    return select(RENDER_FAR, distance, depth_squared >= 0.0 && distance > 0.0);
+}
+
+/// Distance at which the ray first meets an open cylinder from outside, or RENDER_FAR.
+fn render_meet_cylinder(start: vec3<f32>, end: vec3<f32>, radius: f32, origin: vec3<f32>, direction: vec3<f32>) -> f32 {
+    let axis = ltc_direction(end - start);
+    let offset = origin - start;
+    let aside = offset - axis * dot(offset, axis);
+    let way = direction - axis * dot(direction, axis);
+    let a = max(dot(way, way), 1e-20);
+    // From the point of the ray next to the axis.
+    let half = -dot(aside, way) / a;
+    let nearest = aside + way * half;
+    let depth_squared = (radius * radius - dot(nearest, nearest)) / a;
+    let distance = half - sqrt(max(depth_squared, 1e-30));
+    let along = dot(offset + direction * distance, axis);
+    return select(RENDER_FAR, distance, depth_squared >= 0.0 && distance > 0.0 && along >= 0.0 && along <= dot(end - start, axis));
+}
+
 /// Distance along the ray at which it meets a light, or RENDER_FAR.
 fn render_meet_light(light: RenderLight, origin: vec3<f32>, direction: vec3<f32>) -> f32 {
     let first = vertices[light.first].xyz;
+    let radius = vertices[light.first].w;
+    if (light.kind == RENDER_SPHERE_LIGHT) {
+        return render_meet_sphere(first, radius, origin, direction);
+    }
+    if (light.kind == RENDER_TUBE) {
+        let second = vertices[light.first + 1u].xyz;
+        let lateral = render_meet_cylinder(first, second, radius, origin, direction);
+        let ends = min(render_meet_sphere(first, radius, origin, direction), render_meet_sphere(second, radius, origin, direction));
+        return select(lateral, min(lateral, ends), (light.flags & RENDER_CAPS) != 0u);
+    }
     let distance = dot(first - origin, light.normal) / render_keep_sign(dot(direction, light.normal));
     if (distance <= 0.0 || distance >= RENDER_FAR) {
         return RENDER_FAR;
     }
     let place = origin + direction * distance;
+    if (light.kind == RENDER_DISK) {
+        let half_x = vertices[light.first + 1u].xyz;
+        let half_y = vertices[light.first + 2u].xyz;
+        let area = dot(cross(half_x, half_y), light.normal);
+        let x = dot(cross(place - first, half_y), light.normal) / area;
+        let y = dot(cross(half_x, place - first), light.normal) / area;
+        return select(RENDER_FAR, distance, x * x + y * y <= 1.0);
+    }
     let size = abs(light.normal);
     let drop_x = size.x >= size.y && size.x >= size.z;
     let drop_y = !drop_x && size.y >= size.z;
@@ -203,12 +255,19 @@ fn render_shade(hit: RenderHit, view: vec3<f32>) -> vec3<f32> {
         let light = lights[index];
         let first = light.first;
         let two_sided = (light.flags & RENDER_TWO_SIDED) != 0u;
+        let a = vertices[first];
         var value: vec3<f32>;
-        if ((light.flags & RENDER_CONVEX_QUAD) != 0u) {
-            value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz,
+        if (light.kind == RENDER_DISK) {
+            value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+        } else if (light.kind == RENDER_SPHERE_LIGHT) {
+            value = ltc_sphere(surface, lobe, a.xyz, a.w);
+        } else if (light.kind == RENDER_TUBE) {
+            value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & RENDER_CAPS) != 0u);
+        } else if ((light.flags & RENDER_CONVEX_QUAD) != 0u) {
+            value = ltc_quad(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz,
                 vertices[first + 3u].xyz, two_sided);
         } else {
-            var polygon = ltc_polygon_begin(surface, vertices[first].xyz);
+            var polygon = ltc_polygon_begin(surface, a.xyz);
             for (var i = 1u; i < light.count; i++) {
                 ltc_polygon_add(&polygon, surface, lobe, vertices[first + i].xyz);
             }
@@ -237,7 +296,8 @@ fn render_trace(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
         let distance = render_meet_light(light, origin, direction);
         if (distance < nearest) {
             nearest = distance;
-            let emits = (light.flags & RENDER_TWO_SIDED) != 0u || dot(light.normal, direction) < 0.0;
+            let sided = light.kind == RENDER_POLYGON || light.kind == RENDER_DISK;
+            let emits = !sided || (light.flags & RENDER_TWO_SIDED) != 0u || dot(light.normal, direction) < 0.0;
             radiance = select(vec3<f32>(0.0), light.radiance, emits);
         }
     }

@@ -11,8 +11,8 @@ use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::Value;
 use softbox::brdf::Ggx;
-use softbox::device::{Batch, Device, EvaluateLight, EvaluateSurface, Program};
-use softbox::light::{is_convex_quad, ltc_light};
+use softbox::device::{Batch, Device, EvaluateSurface, Program};
+use softbox::light::{Light, LightError, light_value};
 use softbox::shade::{LTC_ROUGHNESS_FLOOR, Real, Vector, ltc_surface};
 use softbox::table::Table;
 use softbox::truth;
@@ -25,7 +25,14 @@ pub const HELP: &str = r#"Evaluate surfaces and lights given as JSON Lines, one 
 
 (on one line). normal and view (towards the eye) need not be unit; two_sided may be left out;
 unknown fields are ignored. The polygon emits from the side from which its points run
-counter-clockwise, with radiance 1. One line each is written:
+counter-clockwise, with radiance 1. Other lights:
+
+{"shape":"disk","center":[x,y,z],"half_x":[x,y,z],"half_y":[x,y,z],"two_sided":false}
+{"shape":"sphere","center":[x,y,z],"radius":r}
+{"shape":"tube","start":[x,y,z],"end":[x,y,z],"radius":r,"caps":false}
+
+A disk emits towards half_x x half_y, a tube from its lateral surface, with caps from two hemispheres too.
+One line each is written:
 
 {"diffuse":d,"specular":s,"fresnel":f}
 
@@ -67,21 +74,16 @@ struct RawSurface {
     roughness: f64,
 }
 
-#[derive(Deserialize)]
-struct RawPolygon {
-    points: Vec<[f64; 3]>,
-    #[serde(default)]
-    two_sided: bool,
-}
-
 struct Case {
     position: DVec3,
     normal: DVec3,
     view: DVec3,
     roughness: f64,
-    points: Vec<DVec3>,
-    two_sided: bool,
+    light: Light,
 }
+
+/// The shapes that a case may name.
+const SHAPES: [&str; 4] = ["polygon", "disk", "sphere", "tube"];
 
 /// Lines that are evaluated together: few enough to answer soon, enough to keep all cores busy; on a
 /// device enough to be worth its start.
@@ -149,7 +151,7 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
         };
         match parsed {
             Ok(case) => {
-                vertices += case.points.len();
+                vertices += vertex_count(&case.light);
                 cases.push(case);
             }
             Err(error) => {
@@ -188,13 +190,18 @@ fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
     }
     let RawCase { surface, light } =
         RawCase::deserialize(&value).map_err(|error| anyhow::anyhow!("not a case: {error}"))?;
-    match light.get("shape") {
-        Some(Value::String(shape)) if shape == "polygon" => {}
-        Some(shape) => anyhow::bail!("the light's shape is {shape}, but the known shape is \"polygon\""),
-        None => anyhow::bail!("the light has no field `shape`; the known shape is \"polygon\""),
+    let shape = match light.get("shape") {
+        Some(Value::String(shape)) if SHAPES.contains(&shape.as_str()) => shape,
+        Some(shape) => anyhow::bail!("the light's shape is {shape}, but the known shapes are {SHAPES:?}"),
+        None => anyhow::bail!("the light has no field `shape`; the known shapes are {SHAPES:?}"),
+    };
+    let light =
+        Light::deserialize(&light).map_err(|error| anyhow::anyhow!("not a {shape} light: {error}"))?;
+    match light.check() {
+        // It emits nothing, and the include says so.
+        Err(LightError::NoArea) => {}
+        checked => checked.map_err(|error| anyhow::anyhow!("the {shape}'s {error}"))?,
     }
-    let RawPolygon { points, two_sided } =
-        RawPolygon::deserialize(&light).map_err(|error| anyhow::anyhow!("not a polygon light: {error}"))?;
     let vector = |name: &str, v: [f64; 3]| -> anyhow::Result<DVec3> {
         let v = DVec3::from(v);
         anyhow::ensure!(
@@ -214,18 +221,12 @@ fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
     };
     let roughness = surface.roughness;
     anyhow::ensure!((0.0..=1.0).contains(&roughness), "roughness is {roughness}, but must be from 0 to 1");
-    anyhow::ensure!(points.len() >= 3, "the polygon has {} points, but needs at least three", points.len());
     Ok(Case {
         position: vector("position", surface.position)?,
         normal: direction("normal", surface.normal)?,
         view: direction("view", surface.view)?,
         roughness,
-        points: points
-            .into_iter()
-            .enumerate()
-            .map(|(i, point)| vector(&format!("point {}", i + 1), point))
-            .collect::<anyhow::Result<_>>()?,
-        two_sided,
+        light,
     })
 }
 
@@ -233,8 +234,7 @@ fn by_twin<R: Real>(table: &Table, case: &Case) -> [f64; 3] {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), R::new(case.roughness));
     let lobe = table.lobe(&surface);
-    let points: Vec<R::Vec3> = case.points.iter().map(|point| v(*point)).collect();
-    let value = ltc_light(&surface, &lobe, &points, is_convex_quad(&case.points), case.two_sided);
+    let value = light_value(&surface, &lobe, &case.light);
     [value.x(), value.y(), value.z()].map(Real::to_f64)
 }
 
@@ -246,9 +246,9 @@ fn by_truth(case: &Case) -> [f64; 3] {
     // As for the include, a view on or below the horizon counts as a grazing one.
     view.z = view.z.max(1e-4);
     let view = view.normalize();
-    let points: Vec<DVec3> = case.points.iter().map(|point| place(*point - case.position)).collect();
+    let light = case.light.moved(|point| place(point - case.position), place);
     let alpha = case.roughness.max(LTC_ROUGHNESS_FLOOR).powi(2);
-    let truth = truth::polygon(&Ggx::new(alpha), view, &points, case.two_sided, 1e-7);
+    let truth = truth::light(&Ggx::new(alpha), view, &light, 1e-7);
     [truth.diffuse, truth.specular, truth.fresnel]
 }
 
@@ -268,13 +268,18 @@ fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<V
             view: single(case.view),
             ..EvaluateSurface::default()
         });
-        let points: Vec<[f32; 3]> = case.points.iter().map(|point| single(*point)).collect();
-        let flags = u32::from(case.two_sided) * EvaluateLight::TWO_SIDED
-            + u32::from(is_convex_quad(&case.points)) * EvaluateLight::CONVEX_QUAD;
-        let light = batch.add_light(&points, flags);
+        let light = batch.add_light(&case.light);
         batch.pairs.push([index as u32, light]);
     }
     let program = Program::wgsl(format!("{}\n{}", softbox::WGSL_INCLUDE, softbox::WGSL_EVALUATE));
     let values = device.evaluate(&program, table, &batch)?;
     Ok(values.into_iter().map(|value| value.map(f64::from)).collect())
+}
+
+/// How many vectors of a storage buffer a light takes.
+fn vertex_count(light: &Light) -> usize {
+    match light {
+        Light::Polygon { points, .. } => points.len(),
+        _ => 3,
+    }
 }

@@ -9,8 +9,10 @@ pub use render::RenderError;
 pub use run::{Device, DeviceError, Program};
 
 use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
 use wgpu::util::DeviceExt;
 
+use crate::light::{Light, is_convex_quad};
 use crate::table::Table;
 
 /// A surface point as the kernel of `wgsl/evaluate.wgsl` reads it.
@@ -31,18 +33,19 @@ pub struct EvaluateSurface {
     pub spare_b: f32,
 }
 
-/// A polygon light as the kernel reads it.
+/// A light as the kernel reads it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 #[repr(C)]
 pub struct EvaluateLight {
-    /// Index of its first vertex.
+    /// Index of its first vector.
     pub first: u32,
-    /// Number of its vertices.
+    /// Number of its vectors: a polygon's vertices; a disk's centre and half-axes; a sphere's centre with the radius as
+    /// fourth number; a tube's ends, the first with the radius.
     pub count: u32,
-    /// Sum of [`EvaluateLight::TWO_SIDED`] and [`EvaluateLight::CONVEX_QUAD`], where they apply.
+    /// Sum of [`EvaluateLight::TWO_SIDED`], [`EvaluateLight::CONVEX_QUAD`] and [`EvaluateLight::CAPS`], where they apply.
     pub flags: u32,
-    /// Not used.
-    pub spare: u32,
+    /// [`EvaluateLight::POLYGON`], [`EvaluateLight::DISK`], [`EvaluateLight::SPHERE`] or [`EvaluateLight::TUBE`].
+    pub kind: u32,
 }
 
 impl EvaluateLight {
@@ -50,6 +53,50 @@ impl EvaluateLight {
     pub const TWO_SIDED: u32 = 1;
     /// The light has four vertices and is convex.
     pub const CONVEX_QUAD: u32 = 2;
+    /// Hemispheres close the tube's ends.
+    pub const CAPS: u32 = 4;
+
+    /// The light is a polygon.
+    pub const POLYGON: u32 = 0;
+    /// The light is a disk.
+    pub const DISK: u32 = 1;
+    /// The light is a sphere.
+    pub const SPHERE: u32 = 2;
+    /// The light is a tube.
+    pub const TUBE: u32 = 3;
+
+    /// Adds the vectors of `light` to `vertices`. Triangles become quads with a repeated vertex, for which the include
+    /// has its fastest function.
+    pub fn new(light: &Light, vertices: &mut Vec<[f32; 4]>) -> Self {
+        let first = vertices.len() as u32;
+        let mut add = |v: DVec3, fourth: f64| vertices.push(v.as_vec3().extend(fourth as f32).to_array());
+        let sides = |two_sided: bool| if two_sided { Self::TWO_SIDED } else { 0 };
+        let (kind, flags) = match light {
+            Light::Polygon { points, two_sided } => {
+                let mut points = points.clone();
+                if let [_, _, last] = points[..] {
+                    points.push(last);
+                }
+                points.iter().for_each(|point| add(*point, 0.0));
+                let convex = if is_convex_quad(&points) { Self::CONVEX_QUAD } else { 0 };
+                (Self::POLYGON, sides(*two_sided) | convex)
+            }
+            Light::Disk { center, half_x, half_y, two_sided } => {
+                [center, half_x, half_y].into_iter().for_each(|v| add(*v, 0.0));
+                (Self::DISK, sides(*two_sided))
+            }
+            Light::Sphere { center, radius } => {
+                add(*center, *radius);
+                (Self::SPHERE, 0)
+            }
+            Light::Tube { start, end, radius, caps } => {
+                add(*start, *radius);
+                add(*end, 0.0);
+                (Self::TUBE, if *caps { Self::CAPS } else { 0 })
+            }
+        };
+        Self { first, count: vertices.len() as u32 - first, flags, kind }
+    }
 }
 
 /// What to evaluate: the values of `pairs` of indices into `surfaces` and `lights`.
@@ -59,7 +106,7 @@ pub struct Batch {
     pub surfaces: Vec<EvaluateSurface>,
     /// Lights.
     pub lights: Vec<EvaluateLight>,
-    /// Their vertices; the fourth number is not used.
+    /// Their vectors.
     pub vertices: Vec<[f32; 4]>,
     /// Index of a surface and of a light.
     pub pairs: Vec<[u32; 2]>,
@@ -67,10 +114,8 @@ pub struct Batch {
 
 impl Batch {
     /// Adds a light and returns its index.
-    pub fn add_light(&mut self, vertices: &[[f32; 3]], flags: u32) -> u32 {
-        let first = self.vertices.len() as u32;
-        self.vertices.extend(vertices.iter().map(|[x, y, z]| [*x, *y, *z, 0.0]));
-        self.lights.push(EvaluateLight { first, count: vertices.len() as u32, flags, spare: 0 });
+    pub fn add_light(&mut self, light: &Light) -> u32 {
+        self.lights.push(EvaluateLight::new(light, &mut self.vertices));
         self.lights.len() as u32 - 1
     }
 }

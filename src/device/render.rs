@@ -4,8 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use wgpu::util::DeviceExt;
 
-use super::{Device, DeviceError};
-use crate::light::is_convex_quad;
+use super::{Device, DeviceError, EvaluateLight};
 use crate::scene::{Image, Light, Object, Scene, Shape, sample_positions};
 use crate::table::Table;
 
@@ -90,15 +89,11 @@ struct RenderObject {
 #[repr(C)]
 struct RenderLight {
     radiance: [f32; 3],
-    first: u32,
+    spare_a: u32,
     normal: [f32; 3],
-    count: u32,
-    flags: u32,
-    spare: [u32; 3],
+    spare_b: u32,
+    shape: EvaluateLight,
 }
-
-const TWO_SIDED: u32 = 1;
-const CONVEX_QUAD: u32 = 2;
 
 fn single(v: DVec3) -> [f32; 3] {
     v.as_vec3().to_array()
@@ -138,23 +133,11 @@ impl RenderObject {
 }
 
 impl RenderLight {
-    /// Adds the vertices of a light to `vertices`. Triangles become quads with a repeated vertex, for which the
-    /// include has its fastest function.
     fn new(light: &Light, vertices: &mut Vec<[f32; 4]>) -> Self {
-        let mut points = light.points.clone();
-        if let [_, _, last] = points[..] {
-            points.push(last);
-        }
-        let first = vertices.len() as u32;
-        vertices.extend(points.iter().map(|point| point.as_vec3().extend(0.0).to_array()));
-        let two_sided = if light.two_sided { TWO_SIDED } else { 0 };
-        let convex = if is_convex_quad(&points) { CONVEX_QUAD } else { 0 };
         Self {
+            shape: EvaluateLight::new(&light.shape, vertices),
             radiance: single(light.radiance),
-            first,
             normal: single(light.normal),
-            count: points.len() as u32,
-            flags: two_sided | convex,
             ..Self::default()
         }
     }

@@ -5,6 +5,8 @@ use glam::{DQuat, DVec3};
 use super::file::{
     BoxEntry, CameraEntry, Colour, File, LightEntry, MaterialEntry, PlaneEntry, RoughnessEntry, SphereEntry,
 };
+use crate::light;
+
 use super::{Camera, Light, Material, Object, Roughness, Scene, SceneError, Shape};
 
 /// Largest length: f32 squares it and still counts in parts of it.
@@ -12,9 +14,6 @@ const LARGEST_LENGTH: f64 = 1e6;
 
 /// Largest radiance and exposure: their product is far from the end of f32.
 const LARGEST_RADIANCE: f64 = 1e9;
-
-/// Share of a light's size by which its vertices may leave one plane.
-const FLATNESS: f64 = 1e-4;
 
 impl File {
     /// The scene, if everything in it can be drawn.
@@ -187,42 +186,107 @@ fn material(entry: &MaterialEntry, place: &Place) -> Result<Material, SceneError
 }
 
 fn light(entry: &LightEntry, place: &Place) -> Result<Light, SceneError> {
-    if entry.points.len() < 3 {
-        return place
-            .error(format!("points holds {} of them; a light needs three or more", entry.points.len()));
+    let fields = Fields { entry, place, shape: entry.shape.as_deref().unwrap_or("polygon") };
+    let shape = fields.shape()?;
+    shape.check().or_else(|error| place.error(error.to_string()))?;
+    let normal = match &shape {
+        light::Light::Polygon { points, .. } => {
+            light::polygon_normal(points).or_else(|error| place.error(error.to_string()))?
+        }
+        light::Light::Disk { half_x, half_y, .. } => half_x.normalize().cross(half_y.normalize()).normalize(),
+        _ => DVec3::ZERO,
+    };
+    let (_, size) = shape.bounds();
+    if size < 1e-6 {
+        return place.error(format!("the light is {size} large; it must measure 1e-6 or more"));
     }
-    let points =
-        entry.points.iter().map(|&point| place.position("a point", point)).collect::<Result<Vec<_>, _>>()?;
-    let sides: Vec<DVec3> = points.iter().map(|&point| point - points[0]).collect();
-    let size = sides.iter().map(|side| side.length()).fold(0.0, f64::max);
-    let area: DVec3 = sides.windows(2).map(|pair| pair[0].cross(pair[1])).sum();
-    if size < 1e-6 || area.length() < 1e-9 * size * size {
-        return place.error("points cover no area; a light must be a polygon that is not flat as a line");
-    }
-    let normal = area.normalize();
-    if sides.iter().any(|side| side.dot(normal).abs() > FLATNESS * size) {
-        return place
-            .error(format!("points are not in one plane; a light must be flat to {FLATNESS} of its size"));
-    }
-    if let Some((first, second)) = crossing(&points, normal) {
-        return place.error(format!(
-            "sides {} and {} cross; the outline of a light must not cross itself",
-            first + 1,
-            second + 1
-        ));
-    }
-    let radiance = place.radiance("radiance", entry.radiance)?;
-    Ok(Light { points, normal, radiance, two_sided: entry.two_sided })
+    Ok(Light { shape, normal, radiance: place.radiance("radiance", entry.radiance)? })
 }
 
-/// Two sides of a flat polygon that cross each other in their inside.
-fn crossing(points: &[DVec3], normal: DVec3) -> Option<(usize, usize)> {
-    let count = points.len();
-    let side = |index: usize| (points[index], points[(index + 1) % count]);
-    let turn = |a: DVec3, b: DVec3, c: DVec3| (b - a).cross(c - a).dot(normal);
-    let pairs = (0..count).flat_map(|first| (first + 1..count).map(move |second| (first, second)));
-    pairs.into_iter().find(|&(first, second)| {
-        let ((a, b), (c, d)) = (side(first), side(second));
-        turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
-    })
+/// The fields of a light, of which each shape has its own.
+struct Fields<'a> {
+    entry: &'a LightEntry,
+    place: &'a Place,
+    shape: &'a str,
+}
+
+impl Fields<'_> {
+    fn shape(&self) -> Result<light::Light, SceneError> {
+        let entry = self.entry;
+        let two_sided = entry.two_sided.unwrap_or(false);
+        let shape = match self.shape {
+            "polygon" => {
+                self.only(&["points", "two_sided"])?;
+                let points = self.needed("points", entry.points.as_ref())?;
+                let points = points.iter().map(|&point| self.place.position("a point", point));
+                light::Light::Polygon { points: points.collect::<Result<_, _>>()?, two_sided }
+            }
+            "disk" => {
+                self.only(&["center", "half_x", "half_y", "two_sided"])?;
+                light::Light::Disk {
+                    center: self.position("center", entry.center)?,
+                    half_x: self.position("half_x", entry.half_x)?,
+                    half_y: self.position("half_y", entry.half_y)?,
+                    two_sided,
+                }
+            }
+            "sphere" => {
+                self.only(&["center", "radius"])?;
+                light::Light::Sphere {
+                    center: self.position("center", entry.center)?,
+                    radius: self.place.length("radius", self.needed("radius", entry.radius)?)?,
+                }
+            }
+            "tube" => {
+                self.only(&["start", "end", "radius", "caps"])?;
+                light::Light::Tube {
+                    start: self.position("start", entry.start)?,
+                    end: self.position("end", entry.end)?,
+                    radius: self.place.length("radius", self.needed("radius", entry.radius)?)?,
+                    caps: entry.caps.unwrap_or(false),
+                }
+            }
+            other => {
+                return self.place.error(format!(
+                    "shape is \"{other}\"; the known shapes are \"polygon\", \"disk\", \"sphere\" and \"tube\""
+                ));
+            }
+        };
+        Ok(shape)
+    }
+
+    fn needed<T>(&self, field: &str, value: Option<T>) -> Result<T, SceneError> {
+        match value {
+            Some(value) => Ok(value),
+            None => self.place.error(format!("a {} needs the field {field}", self.shape)),
+        }
+    }
+
+    fn position(&self, field: &str, value: Option<[f64; 3]>) -> Result<DVec3, SceneError> {
+        self.place.position(field, self.needed(field, value)?)
+    }
+
+    /// Refuses fields that the shape does not have: whoever wrote them meant something by them.
+    fn only(&self, fields: &[&str]) -> Result<(), SceneError> {
+        let entry = self.entry;
+        let given = [
+            ("points", entry.points.is_some()),
+            ("center", entry.center.is_some()),
+            ("half_x", entry.half_x.is_some()),
+            ("half_y", entry.half_y.is_some()),
+            ("start", entry.start.is_some()),
+            ("end", entry.end.is_some()),
+            ("radius", entry.radius.is_some()),
+            ("caps", entry.caps.is_some()),
+            ("two_sided", entry.two_sided.is_some()),
+        ];
+        match given.iter().find(|(name, given)| *given && !fields.contains(name)) {
+            Some((name, _)) => self.place.error(format!(
+                "a {} has no field {name}; it has {}",
+                self.shape,
+                fields.join(", ")
+            )),
+            None => Ok(()),
+        }
+    }
 }

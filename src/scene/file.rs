@@ -135,13 +135,21 @@ pub(super) struct MaterialEntry {
     pub f90: Colour,
 }
 
+/// Which fields a light has depends on its shape, a polygon without one.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct LightEntry {
-    pub points: Vec<[f64; 3]>,
+    pub shape: Option<String>,
+    pub points: Option<Vec<[f64; 3]>>,
+    pub center: Option<[f64; 3]>,
+    pub half_x: Option<[f64; 3]>,
+    pub half_y: Option<[f64; 3]>,
+    pub start: Option<[f64; 3]>,
+    pub end: Option<[f64; 3]>,
+    pub radius: Option<f64>,
+    pub caps: Option<bool>,
+    pub two_sided: Option<bool>,
     pub radiance: Colour,
-    #[serde(default)]
-    pub two_sided: bool,
 }
 
 fn one() -> f64 {

@@ -120,16 +120,14 @@ impl Roughness {
     }
 }
 
-/// A polygon that emits the same radiance in all directions from the side from which its vertices run
-/// counter-clockwise. Its other side is black.
+/// An area light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Light {
-    /// Its vertices, three or more, in one plane.
-    pub points: Vec<DVec3>,
-    /// Unit normal of the emitting side.
+    /// What it is and where.
+    pub shape: crate::light::Light,
+    /// Unit normal of the emitting side of a polygon or disk, whose other side is black unless it is two-sided;
+    /// zero for any other light.
     pub normal: DVec3,
-    /// What it emits.
+    /// What it emits in all directions.
     pub radiance: DVec3,
-    /// Whether it emits from both sides.
-    pub two_sided: bool,
 }

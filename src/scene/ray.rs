@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use super::{Camera, Light, Scene, Shape};
+use crate::light;
 
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -63,7 +64,7 @@ impl Scene {
                 && distance < nearest
             {
                 nearest = distance;
-                hit = Hit::Light(index, light.two_sided || light.normal.dot(direction) < 0.0);
+                hit = Hit::Light(index, light.emits_against(direction));
             }
         }
         hit
@@ -132,25 +133,87 @@ impl Shape {
 }
 
 impl Light {
-    fn meet(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
-        let distance = (self.points[0] - origin).dot(self.normal) / direction.dot(self.normal);
-        if !(distance > 0.0 && distance.is_finite()) {
-            return None;
+    /// Whether the side that a ray in the given direction meets emits.
+    fn emits_against(&self, direction: DVec3) -> bool {
+        match self.shape {
+            light::Light::Polygon { two_sided, .. } | light::Light::Disk { two_sided, .. } => {
+                two_sided || self.normal.dot(direction) < 0.0
+            }
+            _ => true,
         }
-        let place = origin + direction * distance - self.points[0];
-        let [first, second] = projection(self.normal);
-        // A ray to one side within the plane crosses the outline of what surrounds it an odd number of times.
-        let mut inside = false;
-        for (index, &start) in self.points.iter().enumerate() {
-            let a = start - self.points[0] - place;
-            let b = self.points[(index + 1) % self.points.len()] - self.points[0] - place;
-            if (a[second] > 0.0) != (b[second] > 0.0) {
-                let across = a[first] + (b[first] - a[first]) * (a[second] / (a[second] - b[second]));
-                inside ^= across > 0.0;
+    }
+
+    /// Distance to the first point of the light in front of `origin`.
+    fn meet(&self, origin: DVec3, direction: DVec3) -> Option<f64> {
+        match &self.shape {
+            light::Light::Polygon { points, .. } => meet_polygon(points, self.normal, origin, direction),
+            &light::Light::Disk { center, half_x, half_y, .. } => {
+                let distance = meet_plane(center, self.normal, origin, direction)?;
+                let place = origin + direction * distance - center;
+                let area = half_x.cross(half_y).dot(self.normal);
+                let x = place.cross(half_y).dot(self.normal) / area;
+                let y = half_x.cross(place).dot(self.normal) / area;
+                (x * x + y * y <= 1.0).then_some(distance)
+            }
+            &light::Light::Sphere { center, radius } => meet_sphere(center, radius, origin, direction),
+            &light::Light::Tube { start, end, radius, caps } => {
+                let lateral = meet_cylinder(start, end, radius, origin, direction);
+                let ends = [start, end]
+                    .map(|end| caps.then(|| meet_sphere(end, radius, origin, direction)).flatten());
+                [lateral, ends[0], ends[1]].into_iter().flatten().min_by(f64::total_cmp)
             }
         }
-        inside.then_some(distance)
     }
+}
+
+fn meet_plane(point: DVec3, normal: DVec3, origin: DVec3, direction: DVec3) -> Option<f64> {
+    let distance = (point - origin).dot(normal) / direction.dot(normal);
+    (distance > 0.0 && distance.is_finite()).then_some(distance)
+}
+
+/// The first point of a sphere that is seen from outside; from inside there is none.
+fn meet_sphere(center: DVec3, radius: f64, origin: DVec3, direction: DVec3) -> Option<f64> {
+    let half = (center - origin).dot(direction);
+    let aside = origin + direction * half - center;
+    let depth_squared = radius * radius - aside.length_squared();
+    if depth_squared < 0.0 {
+        return None;
+    }
+    let distance = half - depth_squared.sqrt();
+    (distance > 0.0).then_some(distance)
+}
+
+/// The first point of an open cylinder that is seen from outside: its inside is not there.
+fn meet_cylinder(start: DVec3, end: DVec3, radius: f64, origin: DVec3, direction: DVec3) -> Option<f64> {
+    let axis = (end - start).try_normalize()?;
+    let length = (end - start).length();
+    let across = |v: DVec3| v - axis * v.dot(axis);
+    let (offset, way) = (across(origin - start), across(direction));
+    let (a, b, c) = (way.dot(way), offset.dot(way), offset.dot(offset) - radius * radius);
+    let discriminant = b * b - a * c;
+    if a == 0.0 || discriminant < 0.0 {
+        return None;
+    }
+    let distance = (-b - discriminant.sqrt()) / a;
+    let along = (origin + direction * distance - start).dot(axis);
+    (distance > 0.0 && (0.0..=length).contains(&along)).then_some(distance)
+}
+
+fn meet_polygon(points: &[DVec3], normal: DVec3, origin: DVec3, direction: DVec3) -> Option<f64> {
+    let distance = meet_plane(points[0], normal, origin, direction)?;
+    let place = origin + direction * distance - points[0];
+    let [first, second] = projection(normal);
+    // A ray to one side within the plane crosses the outline of what surrounds it an odd number of times.
+    let mut inside = false;
+    for (index, &start) in points.iter().enumerate() {
+        let a = start - points[0] - place;
+        let b = points[(index + 1) % points.len()] - points[0] - place;
+        if (a[second] > 0.0) != (b[second] > 0.0) {
+            let across = a[first] + (b[first] - a[first]) * (a[second] / (a[second] - b[second]));
+            inside ^= across > 0.0;
+        }
+    }
+    inside.then_some(distance)
 }
 
 /// The two axes on which a polygon with the given normal has the largest shadow.

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::{Hit, Image, Light, Material, Scene, sample_positions};
 use crate::brdf::Ggx;
 use crate::shade::LTC_ROUGHNESS_FLOOR;
-use crate::truth::polygon;
+use crate::truth;
 
 /// Relative error allowed to each integral.
 const TOLERANCE: f64 = 1e-4;
@@ -85,12 +85,9 @@ impl Light {
     fn reflected(&self, material: &Material, position: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
         let (tangent, bitangent) = normal.any_orthonormal_pair();
         let into = |v: DVec3| DVec3::new(v.dot(tangent), v.dot(bitangent), v.dot(normal));
-        let points: Vec<DVec3> = self.points.iter().map(|&point| into(point - position)).collect();
-        if points.iter().all(|point| point.z <= 0.0) {
-            return DVec3::ZERO;
-        }
+        let shape = self.shape.moved(|point| into(point - position), into);
         let roughness = material.roughness.at(position).max(LTC_ROUGHNESS_FLOOR);
-        let truth = polygon(&Ggx::new(roughness * roughness), into(view), &points, self.two_sided, TOLERANCE);
+        let truth = truth::light(&Ggx::new(roughness * roughness), into(view), &shape, TOLERANCE);
         let specular = material.f0 * (truth.specular - truth.fresnel) + material.f90 * truth.fresnel;
         self.radiance * (material.base_colour * truth.diffuse + specular)
     }

@@ -12,7 +12,7 @@ pub use pack::clipped_sphere;
 
 use half::f16;
 
-use crate::shade::{LtcLobe, LtcSurface, Real, ltc_lobe, ltc_table_coordinates};
+use crate::shade::{LtcLobe, LtcSurface, Real, ltc_lobe, ltc_surface, ltc_table_coordinates};
 
 /// A table of half-precision texels: two layers of `size` × `size` texels of four numbers.
 ///
@@ -132,4 +132,52 @@ impl Table {
         let amplitude = self.sample::<R>(1, [u, v].into());
         ltc_lobe(surface, shape, amplitude)
     }
+
+    /// The largest value per steradian that any small light can have on a surface at least as rough as `roughness`,
+    /// whatever the view: a bound on the lobe's density times its albedo, for [`Light::range`](crate::light::Light::range).
+    ///
+    /// Found on a grid four times as fine as the table in both directions, and raised by a tenth for what lies
+    /// between its points.
+    pub fn peak(&self, roughness: f64) -> f64 {
+        let last = 4 * (self.size - 1);
+        let first = roughness.clamp(0.0, 1.0);
+        let mut peak = 0.0_f64;
+        for column in 0..=last {
+            let roughness = first + (1.0 - first) * column as f64 / last as f64;
+            for row in 0..=last {
+                let cosine = (row as f64 / last as f64).powi(2);
+                let view = glam::DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
+                let surface = ltc_surface::<f64>(glam::DVec3::ZERO, glam::DVec3::Z, view, roughness);
+                let lobe = self.lobe(&surface);
+                peak = peak.max(lobe.albedo * largest_density(&lobe) / lobe.share);
+            }
+        }
+        1.1 * peak
+    }
+}
+
+/// The largest density of a lobe: |M⁻¹| / (π σ³) with σ the smallest singular value of M⁻¹, since the density in a
+/// direction ω is |M⁻¹| (M⁻¹ω).z / (π |M⁻¹ω|⁴) (Heitz et al. 2016, equation 7).
+fn largest_density(lobe: &LtcLobe<f64>) -> f64 {
+    let determinant = lobe.axis_x.dot(lobe.normal_x);
+    // The inverse's largest singular value is one over σ; its columns are the cofactors over the determinant. Power
+    // iteration on the symmetric product runs from each of three axes, so that one of them has a part in the answer.
+    let cofactors = [lobe.normal_x, lobe.normal_y, lobe.normal_z];
+    let largest = glam::DVec3::AXES.map(|axis| {
+        let mut v = axis;
+        let mut growth = 0.0;
+        for _ in 0..64 {
+            let through = cofactors[0] * v.x + cofactors[1] * v.y + cofactors[2] * v.z;
+            let next = glam::DVec3::new(
+                cofactors[0].dot(through),
+                cofactors[1].dot(through),
+                cofactors[2].dot(through),
+            );
+            growth = next.length();
+            v = next / growth.max(f64::MIN_POSITIVE);
+        }
+        growth
+    });
+    let inverse = largest.into_iter().fold(0.0, f64::max).sqrt() / determinant;
+    determinant * inverse.powi(3) / core::f64::consts::PI
 }

@@ -10,6 +10,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DVec2, DVec3};
 
 use crate::brdf::Brdf;
+use crate::light::Light;
 use outline::{Crossing, Outline, elevation, wrap};
 use quadrature::{Goal, Integral, Panel, integrate};
 
@@ -67,6 +68,14 @@ pub fn polygon(brdf: &dyn Brdf, view: DVec3, points: &[DVec3], two_sided: bool, 
     match Outline::new(points) {
         Some(outline) if two_sided || outline.faces_origin() => solid_angle(brdf, view, &outline, tolerance),
         _ => dark,
+    }
+}
+
+/// Integrates `brdf` over any light; see the function of its shape.
+pub fn light(brdf: &dyn Brdf, view: DVec3, light: &Light, tolerance: f64) -> Truth {
+    match light {
+        Light::Polygon { points, two_sided } => polygon(brdf, view, points, *two_sided, tolerance),
+        _ => unimplemented!(),
     }
 }
 

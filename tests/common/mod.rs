@@ -6,7 +6,7 @@ pub mod tools;
 
 use glam::{DVec3, Vec3};
 use softbox::device::{Batch, EvaluateLight, EvaluateSurface};
-use softbox::light::ltc_light;
+use softbox::light::{Light, light_value, polygon_value};
 use softbox::shade::{Real, Vector, ltc_surface};
 use softbox::table::Table;
 
@@ -88,11 +88,34 @@ pub struct Case {
     pub two_sided: bool,
     /// Hand it to the quad functions.
     pub quad: bool,
+    /// What the vertices are, see [`EvaluateLight`].
+    pub kind: u32,
+    /// Radius of a sphere or tube.
+    pub radius: f32,
     pub bound: Bound,
     /// The form factor where a closed form knows it better than exact arithmetic on rounded input.
     pub form_factor: Option<f64>,
     /// What the light's closeness adds to the error that specular light may have.
     pub specular_slack: f64,
+}
+
+impl Case {
+    /// The light.
+    pub fn light(&self) -> Light {
+        let v = |i: usize| self.vertices[i].as_dvec3();
+        let radius = f64::from(self.radius);
+        match self.kind {
+            EvaluateLight::DISK => {
+                Light::Disk { center: v(0), half_x: v(1), half_y: v(2), two_sided: self.two_sided }
+            }
+            EvaluateLight::SPHERE => Light::Sphere { center: v(0), radius },
+            EvaluateLight::TUBE => Light::Tube { start: v(0), end: v(1), radius, caps: self.two_sided },
+            _ => Light::Polygon {
+                points: self.vertices.iter().map(|v| v.as_dvec3()).collect(),
+                two_sided: self.two_sided,
+            },
+        }
+    }
 }
 
 /// F of a rectangle that stands on the surface with a lower corner at the foot of the
@@ -109,8 +132,13 @@ pub fn twin<R: Real>(table: &Table, case: &Case) -> [f64; 3] {
     let roughness = R::new(case.roughness.into());
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), roughness);
     let lobe = table.lobe(&surface);
-    let points: Vec<R::Vec3> = case.vertices.iter().map(|vertex| v(*vertex)).collect();
-    let value = ltc_light(&surface, &lobe, &points, case.quad, case.two_sided);
+    let value = match case.light() {
+        Light::Polygon { two_sided, .. } => {
+            let points: Vec<R::Vec3> = case.vertices.iter().map(|vertex| v(*vertex)).collect();
+            polygon_value(&surface, &lobe, &points, case.quad, two_sided)
+        }
+        light => light_value(&surface, &lobe, &light),
+    };
     [value.x(), value.y(), value.z()].map(Real::to_f64)
 }
 
@@ -132,10 +160,12 @@ pub fn batch(cases: &[Case]) -> Batch {
             view: case.view.into(),
             ..EvaluateSurface::default()
         });
-        let vertices: Vec<[f32; 3]> = case.vertices.iter().map(|v| (*v).into()).collect();
-        let flags = u32::from(case.two_sided) * EvaluateLight::TWO_SIDED
-            + u32::from(case.quad) * EvaluateLight::CONVEX_QUAD;
-        let light = batch.add_light(&vertices, flags);
+        let light = batch.add_light(&case.light());
+        if case.kind == EvaluateLight::POLYGON {
+            let flags = &mut batch.lights[light as usize].flags;
+            *flags &= !EvaluateLight::CONVEX_QUAD;
+            *flags |= u32::from(case.quad) * EvaluateLight::CONVEX_QUAD;
+        }
         batch.pairs.push([index as u32, light]);
     }
     batch

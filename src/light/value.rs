@@ -1,0 +1,48 @@
+//! The value of a light by the functions of the include.
+
+use glam::DVec3;
+
+use super::{Light, is_convex_quad};
+use crate::shade::{
+    LtcLobe, LtcSurface, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad,
+};
+
+/// The value (diffuse, specular, fresnel) of a polygon light, by `ltc_quad` for a `convex_quad` and by the
+/// polygon functions for any other.
+///
+/// # Panics
+///
+/// If there is no point, or `convex_quad` is set and there are not four.
+pub fn polygon_value<R: Real>(
+    surface: &LtcSurface<R>,
+    lobe: &LtcLobe<R>,
+    points: &[R::Vec3],
+    convex_quad: bool,
+    two_sided: bool,
+) -> R::Vec3 {
+    if convex_quad {
+        return ltc_quad(surface, lobe, [points[0], points[1], points[2], points[3]], two_sided);
+    }
+    let mut polygon = ltc_polygon_begin(surface, points[0]);
+    for point in &points[1..] {
+        ltc_polygon_add(&mut polygon, surface, lobe, *point);
+    }
+    ltc_polygon_end(&mut polygon, surface, lobe, two_sided)
+}
+
+/// The value (diffuse, specular, fresnel) of any light.
+pub fn light_value<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, light: &Light) -> R::Vec3 {
+    let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
+    match light {
+        Light::Polygon { points, two_sided } => {
+            let mut points = points.clone();
+            if let [_, _, last] = points[..] {
+                points.push(last);
+            }
+            let convex = is_convex_quad(&points);
+            let points: Vec<R::Vec3> = points.iter().map(|point| v(*point)).collect();
+            polygon_value(surface, lobe, &points, convex, *two_sided)
+        }
+        _ => unimplemented!(),
+    }
+}
