@@ -971,3 +971,290 @@ fn ltc_edge_from(origin: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f
     let b_away = ltc_offset(origin, reference, b, b_offset);
     return ltc_edge_about(reference, a_unit, a_away, b_unit, b_away, normal);
 }
+
+// ---------------------------------------------------------------------------------------------
+// Tubes
+//
+//     let tube = ltc_tube_begin(surface, start, end, radius, caps);
+//     let form_factor = ltc_tube_diffuse(surface, tube);
+//     let toward = ltc_tube_lobe(surface, lobe, tube);      // for each lobe
+//
+// A thin tube is seen as a line whose width in angle falls with the cosine to its closest point. The
+// integral of directions along it is closed (Heitz and Hill 2017, "Linear-Light Shading with Linearly
+// Transformed Cosines"). Three things make it exact but for the square of radius over distance: the sine
+// of half the width in place of its angle, which makes a tube without ends exact; ends at the distance at
+// which their rims are seen on average; and in the lobe's space, where a tube may be wide, the two planes
+// of its outline in place of a width.
+// ---------------------------------------------------------------------------------------------
+
+/// A tube as all lobes share it: relative to the surface point, scaled, and cut at the surface's horizon.
+struct LtcTube {
+    /// One end of what is left of the axis, moved to where the rim is seen.
+    start: vec3<f32>,
+    /// Length of what is left.
+    remaining_length: f32,
+    /// Its other end.
+    end: vec3<f32>,
+    /// Distance of the moved axis.
+    axis_distance: f32,
+    /// Direction from `start` to `end`; zero for a tube of no length.
+    axis: vec3<f32>,
+    /// Sine of half the angle under which the tube's width is seen, 0 to 1.
+    sine: f32,
+    /// Normal of the plane through axis and surface point; shorter than 1 where the point is inside the tube.
+    across: vec3<f32>,
+    /// Share of the width that is above the surface's horizon; 0 if all of the axis is below.
+    share: f32,
+    /// Towards the cap at the start, as long as the sine of half the angle under which it is seen.
+    start_cap: vec3<f32>,
+    /// Share of that cap that is seen, 0 to 1.
+    start_weight: f32,
+    /// Towards the cap at the end.
+    end_cap: vec3<f32>,
+    /// Share of that cap that is seen.
+    end_weight: f32,
+}
+
+/// Square root of a number that is not negative; 0 below 1e-30.
+fn ltc_root(x: f32) -> f32 {
+    return x * inverseSqrt(max(x, 1e-30));
+}
+
+/// Share of what reaches from `height` - `rise` to `height` + `rise` that is above 0.
+fn ltc_tube_share(height: f32, rise: f32) -> f32 {
+    return saturate(0.5 + 0.5 * height / max(max(rise, abs(height)), LTC_TINY));
+}
+
+/// The vector form factor of a line of constant width from `a` to `b`, over the sine of half the angle under
+/// which that width is seen at its `foot`, the direction of its closest point, at the given distance.
+///
+/// With t the angle from the foot, w(t) the direction there and s = sin of half the width, it is
+/// s / pi times the integral of 2 cos t w(t). Between two ends that is the sum of their directions, each
+/// times the cosine of the other and the sine of the angle between them, and of the foot times that angle
+/// less its sine times its cosine: no difference of large terms, so a distant line keeps its digits, and
+/// one on the horizon too. A `foot` shorter than 1 is that of an axis nearer than `distance`.
+fn ltc_tube_line(a: vec3<f32>, b: vec3<f32>, foot: vec3<f32>, distance_to_line: f32, length_of_line: f32) -> vec3<f32> {
+    let hidden = max(1.0 - dot(foot, foot), 0.0);
+    let inside = hidden * distance_to_line * distance_to_line;
+    let a_inverse = inverseSqrt(max(dot(a, a) + inside, LTC_TINY));
+    let b_inverse = inverseSqrt(max(dot(b, b) + inside, LTC_TINY));
+    let a_unit = a * a_inverse;
+    let b_unit = b * b_inverse;
+    let a_cosine = min(distance_to_line * a_inverse, 1.0);
+    let b_cosine = min(distance_to_line * b_inverse, 1.0);
+    let ends_sine = length_of_line * a_inverse * b_cosine;
+    let chord = b_unit - a_unit;
+    let change = b_cosine - a_cosine;
+    let ends_k = 0.5 * (dot(chord, chord) + hidden * change * change);
+    // Sine and cosine come from different quantities. Where a part of the width is cut off, or the surface point
+    // is inside, these disagree; they must not at the right angle, where one form takes over from the other.
+    let ends_cosine = 1.0 - ends_k;
+    let agreed = inverseSqrt(max(ends_sine * ends_sine + ends_cosine * ends_cosine, LTC_TINY));
+    let sine = ends_sine * agreed;
+    let k = ends_k + (1.0 - ends_cosine * agreed - ends_k) * min(ends_k, 1.0);
+    let excess = ltc_angle_excess(min(k, max(2.0 - k, 0.0)));
+    // The angle between the ends less the product of its sine and cosine.
+    let bulge = select(sine * (excess + k), LTC_PI - sine * (2.0 + excess - min(k, 2.0)), k > 1.0);
+    return ((a_unit * b_cosine + b_unit * a_cosine) * sine + foot * bulge) * (2.0 * LTC_OVER_TWO_PI);
+}
+
+/// Towards a cap around `center`, the end of a tube in the direction `outward`, as long as the sine of half
+/// the angle under which it is seen; in w the share of it that is seen. `inverse_distance` is 1 over the distance,
+/// `reach` the radius or the tube's length if that is less, and `turned` tells how far the tube's end is turned
+/// towards the surface point, from -1 to 1.
+fn ltc_tube_cap_begin(surface: LtcSurface, center: vec3<f32>, inverse_distance: f32, outward: vec3<f32>, radius: f32, reach: f32, turned: f32) -> vec4<f32> {
+    let toward = center * inverse_distance;
+    // Half a disk has its centre of area at 4 / (3 pi) of the radius; less counts where two halves become a sphere.
+    let aside = outward - toward * dot(toward, outward);
+    let middle = center + aside * (0.424413182 * reach * (1.0 - turned));
+    // Of a cap on the horizon the middle of what is above counts.
+    let seen = ltc_tube_share(dot(surface.normal, middle), radius);
+    let lifted = ltc_direction(middle + surface.normal * (radius * (1.0 - seen)));
+    return vec4<f32>(lifted * min(radius * inverse_distance, 1.0), (0.5 + 0.5 * turned) * seen);
+}
+
+/// The tube of the given `radius` around the line from `start` to `end`, which emits outwards from its lateral
+/// surface; with `caps` its ends are rounded by hemispheres that emit too, else they are open and it is
+/// dark inside.
+///
+/// The axis is cut at the surface's horizon. Where the tube lies along the horizon, part of its width is
+/// below: then what is left counts, with the middle that it has. A surface point inside the tube counts
+/// as one at the radius's distance from the axis, in the direction in which the axis is, so that light stays continuous.
+fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius: f32, caps: bool) -> LtcTube {
+    let origin = surface.position * LTC_HEADROOM;
+    let a_full = start * LTC_HEADROOM - origin;
+    let b_full = end * LTC_HEADROOM - origin;
+    let radius_full = abs(radius) * LTC_HEADROOM;
+    let scale = 1.0 / max(max(max(ltc_extent(a_full), ltc_extent(b_full)), radius_full), LTC_TINY);
+    // The difference of the ends themselves: that of the vectors to the surface has lost digits.
+    let side = (end * LTC_HEADROOM - start * LTC_HEADROOM) * scale;
+    let p_a = a_full * scale;
+    let p_b = b_full * scale;
+    let r = radius_full * scale;
+    let axis = ltc_direction(side);
+    let full_length = dot(axis, side);
+    let a_squared = dot(p_a, p_a);
+    let b_squared = dot(p_b, p_b);
+    let moment = cross(select(p_a, p_b, b_squared < a_squared), axis);
+    let squared = max(dot(moment, moment), r * r);
+    let inverse = inverseSqrt(max(squared, LTC_TINY));
+    let is_inside = dot(moment, moment) < r * r;
+    let sine = select(min(r * inverse, 1.0), 1.0, is_inside);
+    let across = moment * inverse;
+
+    // Rims are seen nearer than the axis, by pi / 4 of the radius on average; the outline of caps begins at it.
+    let nearer = select(0.25 * LTC_PI * sine, 0.0, caps);
+    let moved = cross(axis, moment) * nearer;
+    // Half the tube's extent in height, across its axis: that of its width as it is seen, or inside the tube of
+    // its whole section.
+    let upright = surface.normal - axis * dot(surface.normal, axis);
+    let hidden = select(0.0, max(1.0 - dot(across, across), 0.0), is_inside);
+    let slope = across * dot(surface.normal, across) + upright * hidden;
+    let rise = r * ltc_root(max(dot(surface.normal, slope), 0.0));
+    let highest = max(dot(surface.normal, p_a - moved), dot(surface.normal, p_b - moved));
+    let seen = ltc_tube_share(highest, rise);
+    let lift = slope * ((1.0 - seen) * r * r / max(rise, LTC_TINY));
+    let q_a = p_a - moved + lift;
+    let q_b = p_b - moved + lift;
+    let a_height = dot(surface.normal, q_a);
+    let b_height = dot(surface.normal, q_b);
+    let a_part = saturate(-a_height / max(b_height - a_height, LTC_TINY));
+    let b_part = saturate(-b_height / max(a_height - b_height, LTC_TINY));
+    let left = q_b - q_a;
+    var tube: LtcTube;
+    tube.start = q_a + left * a_part;
+    tube.remaining_length = full_length * max(1.0 - a_part - b_part, 0.0);
+    tube.end = q_b - left * b_part;
+    tube.axis_distance = squared * inverse * (1.0 - nearer);
+    tube.axis = axis;
+    tube.sine = sine;
+    tube.across = across;
+    tube.share = select(0.0, seen, max(a_height, b_height) > 0.0);
+    tube.start_cap = vec3<f32>(0.0);
+    tube.start_weight = 0.0;
+    tube.end_cap = vec3<f32>(0.0);
+    tube.end_weight = 0.0;
+    if (caps) {
+        // The outline of a capsule has half a disk at each end, but more of the nearer one and less of the other:
+        // its straight parts meet the two disks where both have the same tangent.
+        let a_inverse = inverseSqrt(max(max(a_squared, r * r), LTC_TINY));
+        let b_inverse = inverseSqrt(max(max(b_squared, r * r), LTC_TINY));
+        let farther = max(b_squared, r * r) * b_inverse - max(a_squared, r * r) * a_inverse;
+        let turned = sine * clamp(farther / max(full_length, LTC_TINY), -1.0, 1.0);
+        let reach = min(r, full_length);
+        let start_cap = ltc_tube_cap_begin(surface, p_a, a_inverse, -axis, r, reach, turned);
+        let end_cap = ltc_tube_cap_begin(surface, p_b, b_inverse, axis, r, reach, -turned);
+        tube.start_cap = start_cap.xyz;
+        tube.start_weight = start_cap.w;
+        tube.end_cap = end_cap.xyz;
+        tube.end_weight = end_cap.w;
+    }
+    return tube;
+}
+
+/// The form factor of a tube, 0 to 1. Its mean error against the integral over the solid angle is 0.09 times
+/// the square of radius over distance of the value, with caps 0.3 times.
+fn ltc_tube_diffuse(surface: LtcSurface, tube: LtcTube) -> f32 {
+    let foot = cross(tube.axis, tube.across);
+    let sum = ltc_tube_line(tube.start, tube.end, foot, tube.axis_distance, tube.remaining_length);
+    let start_cap = tube.start_weight * max(dot(surface.normal, tube.start_cap), 0.0) * ltc_root(dot(tube.start_cap, tube.start_cap));
+    let end_cap = tube.end_weight * max(dot(surface.normal, tube.end_cap), 0.0) * ltc_root(dot(tube.end_cap, tube.end_cap));
+    return saturate(max(dot(surface.normal, sum), 0.0) * tube.sine * tube.share + start_cap + end_cap);
+}
+
+/// The vector form factor of a tube's cap in the lobe's space: that of a small disk at its middle.
+fn ltc_tube_cap(lobe: LtcLobe, cap: vec3<f32>, weight: f32) -> vec3<f32> {
+    let toward = ltc_transform(lobe, cap);
+    let squared = dot(cap, cap);
+    let inverse = inverseSqrt(max(dot(toward, toward), LTC_TINY));
+    let narrowed = ltc_root(squared) * inverse;
+    // The solid angle over pi that the disk has there if it is small; it grows to no more than a half-space.
+    let area = max(dot(ltc_transform_normal(lobe, cap), toward), 0.0) * narrowed * narrowed * narrowed;
+    let form_factor = weight * area / max(1.0 - squared + area, LTC_TINY);
+    return toward * select(0.0, form_factor * inverse, toward.z > 0.0);
+}
+
+/// The vector form factor of a tube in the lobe's space, of its part above both horizons; z is not negative.
+///
+/// There a tube has another width, and need be neither thin nor seen square. The two planes of its outline give
+/// its width as the chord between their directions across the axis. The line is moved to where the middle
+/// between these directions meets the tube's section.
+///
+/// Mean error of the coverage against the lobe's integral over the solid angle, for a radius of 0.02 and
+/// 0.08 of the distance: 0.006 and 0.09 % at roughness 0.4 to 1, 0.03 and 0.2 % at 0.15 to 0.4; with caps 0.02 and
+/// 0.2 %, 0.04 and 0.5 %. A cap is one point: a lobe narrower than a cap misses it or sees it whole, 5 % at 0.05
+/// to 0.15 and a radius of 0.02.
+fn ltc_tube_lobe(surface: LtcSurface, lobe: LtcLobe, tube: LtcTube) -> vec3<f32> {
+    let axis = ltc_transform(lobe, tube.axis);
+    let volume = max(dot(ltc_transform_normal(lobe, tube.axis), axis), 0.0);
+    let stretch_squared = dot(axis, axis);
+    let stretch_inverse = inverseSqrt(max(stretch_squared, LTC_TINY));
+    let stretch = stretch_squared * stretch_inverse;
+    let across = ltc_transform_normal(lobe, tube.across);
+    // Exactly 0 outside the tube: a sharp lobe would magnify its rounding.
+    let hidden = select(0.0, max(1.0 - dot(tube.across, tube.across), 0.0), tube.sine >= 1.0);
+    let squared = dot(across, across) + hidden * volume * stretch;
+    let inverse = inverseSqrt(max(squared, LTC_TINY));
+    let normal = across * inverse;
+    let toward = cross(axis, across) * (inverse * stretch_inverse);
+
+    // Both outlines across the axis, as (depth, width) over the tube's distance: (right_depth, width) and
+    // (left_depth, -width).
+    let sine = tube.sine * tube.share;
+    let side = ltc_transform(lobe, tube.across) * sine;
+    let full_depth = squared * inverse * stretch_inverse;
+    let depth = full_depth * ltc_root(max(1.0 - sine * sine, 0.0));
+    let width = sine * volume * inverse;
+    let slope = dot(toward, side);
+    let left_depth = depth - slope;
+    let right_depth = depth + slope;
+    let left_squared = left_depth * left_depth + width * width;
+    let right_squared = right_depth * right_depth + width * width;
+    let left_inverse = inverseSqrt(max(left_squared, LTC_TINY));
+    let right_inverse = inverseSqrt(max(right_squared, LTC_TINY));
+    let left_cosine = left_depth * left_inverse;
+    let right_cosine = right_depth * right_inverse;
+    // The chord between their directions. For a narrow tube the difference of the cosines has no digits.
+    let cosines = left_cosine + right_cosine;
+    let narrow = width * left_inverse * right_inverse;
+    let chord_depth = select(right_cosine - left_cosine, 4.0 * depth * slope * narrow * narrow / max(cosines, 1.0), cosines > 1.0);
+    let chord_width = width * (left_inverse + right_inverse);
+    let chord_squared = chord_depth * chord_depth + chord_width * chord_width;
+    let chord_inverse = inverseSqrt(max(chord_squared, 1e-30));
+    let foot_depth = chord_width * chord_inverse;
+    let foot_width = -chord_depth * chord_inverse;
+    let foot = toward * foot_depth + normal * foot_width;
+    let lengths = left_squared * left_inverse + right_squared * right_inverse;
+    let shift = -4.0 * full_depth * slope / max(lengths * lengths, LTC_TINY);
+    let line_distance = tube.axis_distance * max(foot_depth * (full_depth + slope * shift) + foot_width * width * shift, 0.0);
+
+    let moved = side * (tube.axis_distance * shift);
+    let a = ltc_transform(lobe, tube.start) + moved;
+    let b = ltc_transform(lobe, tube.end) + moved;
+    let a_part = saturate(-a.z / max(b.z - a.z, LTC_TINY));
+    let b_part = saturate(-b.z / max(a.z - b.z, LTC_TINY));
+    let left = b - a;
+    let line_length = tube.remaining_length * stretch * max(1.0 - a_part - b_part, 0.0);
+    let sum = ltc_tube_line(a + left * a_part, b - left * b_part, foot, line_distance, line_length);
+    var value = sum * select(0.0, 0.5 * chord_squared * chord_inverse, max(a.z, b.z) > 0.0);
+    if (tube.start_weight + tube.end_weight > 0.0) {
+        value += ltc_tube_cap(lobe, tube.start_cap, tube.start_weight) + ltc_tube_cap(lobe, tube.end_cap, tube.end_weight);
+        // Caps of a thick tube overlap it; there is no more than the hemisphere.
+        value *= min(inverseSqrt(max(dot(value, value), LTC_TINY)), 1.0);
+    }
+    return vec3<f32>(value.xy, max(value.z, 0.0));
+}
+
+/// The value (diffuse, specular, fresnel) of a tube light of the given `radius` around the line from `start` to
+/// `end`, at best an eighth of the distance or less; with `caps` its ends are rounded. See ltc_tube_begin.
+///
+/// Error of the form factor against exact arithmetic: at most 4e-7 and 1e-7 times the ratio of the farther end's
+/// distance to that of the axis, in units of the angles under which the tube's width and length are seen,
+/// each counted as no more than 1: so much do the coordinates' own digits leave open. For a lobe's coverage see
+/// ltc_tube_lobe.
+fn ltc_tube(surface: LtcSurface, lobe: LtcLobe, start: vec3<f32>, end: vec3<f32>, radius: f32, caps: bool) -> vec3<f32> {
+    let tube = ltc_tube_begin(surface, start, end, radius, caps);
+    let toward = ltc_tube_lobe(surface, lobe, tube);
+    let specular = ltc_specular(surface, lobe, clamp(toward.z / lobe.share, 0.0, 1.0), toward);
+    return vec3<f32>(ltc_tube_diffuse(surface, tube), specular);
+}

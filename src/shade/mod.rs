@@ -22,6 +22,7 @@ mod polygon;
 mod quad;
 mod real;
 mod surface;
+mod tube;
 
 pub use polygon::{
     LtcOutline, LtcOutlineLobe, LtcPolygon, ltc_outline_add, ltc_outline_begin, ltc_outline_diffuse,
@@ -39,4 +40,8 @@ pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
     ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates,
     ltc_transform, ltc_transform_normal, ltc_value,
+};
+pub use tube::{
+    LtcTube, ltc_root, ltc_tube, ltc_tube_begin, ltc_tube_cap, ltc_tube_cap_begin, ltc_tube_diffuse,
+    ltc_tube_line, ltc_tube_lobe, ltc_tube_share,
 };

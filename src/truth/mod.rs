@@ -16,6 +16,9 @@ use quadrature::{Goal, Integral, Panel, integrate};
 
 mod outline;
 mod quadrature;
+mod tube;
+
+pub use tube::tube;
 
 /// A light's result at a surface point for unit radiance, with estimates of its errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
