@@ -255,14 +255,15 @@ fn check(what: &str, cases: &[Case], values: &[[f64; 3]]) {
             && (0.0..=specular * (1.0 + 1e-6)).contains(&fresnel);
         let error = [(diffuse - exact[0]).abs(), (specular - exact[1]).abs()];
         let bounds = case.bounds();
-        let share = [error[0] / bounds.0.max(1e-37), error[1] / bounds.1.max(1e-37)];
+        let limits = if case.bounded { [bounds.0, bounds.1] } else { [f64::INFINITY; 2] };
+        let share: [f64; 2] = core::array::from_fn(|k| error[k] / limits[k].max(1e-37));
         let entry = worst.entry(case.family).or_default();
         entry.count += 1;
         for k in 0..2 {
             entry.error[k] = entry.error[k].max(error[k]);
             entry.share[k] = entry.share[k].max(share[k]);
         }
-        if !physical || (case.bounded && (share[0] > 1.0 || share[1] > 1.0)) {
+        if !physical || share[0] > 1.0 || share[1] > 1.0 {
             offenders.push(format!("{value:?}, exact {exact:?}, bounds {bounds:?}: {case:?}"));
         }
     }
