@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{Light, is_convex_quad};
 use crate::shade::{
-    LtcLobe, LtcSurface, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad,
+    LtcLobe, LtcSurface, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad, ltc_tube,
 };
 
 /// The value (diffuse, specular, fresnel) of a polygon light, by `ltc_quad` for a `convex_quad` and by the
@@ -42,6 +42,9 @@ pub fn light_value<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, light: &
             let convex = is_convex_quad(&points);
             let points: Vec<R::Vec3> = points.iter().map(|point| v(*point)).collect();
             polygon_value(surface, lobe, &points, convex, *two_sided)
+        }
+        Light::Tube { start, end, radius, caps } => {
+            ltc_tube(surface, lobe, v(*start), v(*end), R::new(*radius), *caps)
         }
         _ => unimplemented!(),
     }

@@ -78,6 +78,9 @@ pub fn polygon(brdf: &dyn Brdf, view: DVec3, points: &[DVec3], two_sided: bool, 
 pub fn light(brdf: &dyn Brdf, view: DVec3, light: &Light, tolerance: f64) -> Truth {
     match light {
         Light::Polygon { points, two_sided } => polygon(brdf, view, points, *two_sided, tolerance),
+        Light::Tube { start, end, radius, caps } => {
+            tube(brdf, view, *start, *end, *radius, *caps, tolerance)
+        }
         _ => unimplemented!(),
     }
 }
