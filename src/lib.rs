@@ -34,6 +34,9 @@ pub const WGSL_EVALUATE: &str = include_str!("../wgsl/evaluate.wgsl");
 /// A kernel that renders scenes; to be appended to [`WGSL_INCLUDE`].
 pub const WGSL_RENDER: &str = include_str!("../wgsl/render.wgsl");
 
+/// Kernels that make the mipmaps of a textured light's picture; a module of its own.
+pub const WGSL_PREFILTER: &str = include_str!("../wgsl/prefilter.wgsl");
+
 /// The include in GLSL: `450/ltc.glsl`, `330/ltc.glsl`, `es300/ltc.glsl` and `es310/ltc.glsl`.
 pub static GLSL: Dir = include_dir!("$CARGO_MANIFEST_DIR/glsl");
 
@@ -76,6 +79,8 @@ pub mod scene;
 pub mod shade;
 #[cfg(feature = "shade")]
 pub mod table;
+#[cfg(feature = "shade")]
+pub mod texture;
 #[cfg(feature = "translate")]
 pub mod translate;
 #[cfg(feature = "shade")]

@@ -1,5 +1,6 @@
 //! Evaluation on a wgpu adapter.
 
+mod prefilter;
 #[cfg(feature = "scene")]
 mod render;
 mod run;

@@ -7,11 +7,13 @@
 mod angle;
 mod layout;
 mod single;
+mod texture;
 mod whole;
 
 pub use angle::fit_angle_excess;
 pub use layout::Layout;
 pub use single::Horizon;
+pub use texture::{Sight, fit_lookup, lookup_loss};
 
 use rayon::prelude::*;
 

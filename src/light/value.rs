@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::{Light, is_convex_quad};
 use crate::shade::{
-    LtcLobe, LtcSurface, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad, ltc_tube,
+    LtcLobe, LtcSurface, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad,
+    ltc_tube,
 };
 
 /// The value (diffuse, specular, fresnel) of a polygon light, by `ltc_quad` for a `convex_quad` and by the

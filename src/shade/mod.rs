@@ -22,6 +22,7 @@ mod polygon;
 mod quad;
 mod real;
 mod surface;
+mod texture;
 mod tube;
 
 pub use polygon::{
@@ -40,6 +41,10 @@ pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
     ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates,
     ltc_transform, ltc_transform_normal, ltc_value,
+};
+pub use texture::{
+    LTC_LOOKUP, LookupConstants, LtcLookup, ltc_lookup, ltc_lookup_with, ltc_outlined,
+    ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup,
 };
 pub use tube::{
     LtcTube, ltc_root, ltc_tube, ltc_tube_begin, ltc_tube_cap, ltc_tube_cap_begin, ltc_tube_diffuse,

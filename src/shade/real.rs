@@ -34,6 +34,8 @@ pub trait Real:
     fn to_f64(self) -> f64;
     /// 1 / √self.
     fn inverse_sqrt(self) -> Self;
+    /// Natural logarithm.
+    fn ln(self) -> Self;
     /// The magnitude.
     fn abs(self) -> Self;
     /// The smaller of two numbers.
@@ -94,6 +96,9 @@ macro_rules! real {
             }
             fn inverse_sqrt(self) -> Self {
                 1.0 / self.sqrt()
+            }
+            fn ln(self) -> Self {
+                <$real>::ln(self)
             }
             fn abs(self) -> Self {
                 <$real>::abs(self)

@@ -19,6 +19,9 @@ mod quadrature;
 mod tube;
 
 pub use tube::tube;
+mod textured;
+
+pub use textured::{texel_shares, textured_polygon};
 
 /// A light's result at a surface point for unit radiance, with estimates of its errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,9 +81,7 @@ pub fn polygon(brdf: &dyn Brdf, view: DVec3, points: &[DVec3], two_sided: bool, 
 pub fn light(brdf: &dyn Brdf, view: DVec3, light: &Light, tolerance: f64) -> Truth {
     match light {
         Light::Polygon { points, two_sided } => polygon(brdf, view, points, *two_sided, tolerance),
-        Light::Tube { start, end, radius, caps } => {
-            tube(brdf, view, *start, *end, *radius, *caps, tolerance)
-        }
+        Light::Tube { start, end, radius, caps } => tube(brdf, view, *start, *end, *radius, *caps, tolerance),
         _ => unimplemented!(),
     }
 }
