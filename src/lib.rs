@@ -59,6 +59,14 @@ pub const TABLE_NATIVE: &[u8] = include_bytes!("../table/ltc.bin");
 /// The same for code that implements the published technique, in the layout of the published tables.
 pub const TABLE_COMPATIBLE: &[u8] = include_bytes!("../table/ltc_compatible.bin");
 
+/// The layer that the include reads for sheen, of the same format and size: one layer, for the model
+/// of Estevez and Kulla (2017).
+pub const TABLE_SHEEN: &[u8] = include_bytes!("../table/ltc_sheen.bin");
+
+/// The layer that the include reads for rough diffuse surfaces: one layer, for the single scattering
+/// of the model of Portsmouth, Kutz and Hill (2025).
+pub const TABLE_DIFFUSE: &[u8] = include_bytes!("../table/ltc_diffuse.bin");
+
 #[cfg(feature = "shade")]
 pub mod brdf;
 #[cfg(feature = "device")]

@@ -37,6 +37,10 @@ enum LayoutName {
     Native,
     /// What code that implements the published technique reads.
     Compatible,
+    /// One layer that the include reads for sheen.
+    Sheen,
+    /// One layer that the include reads for the first bounce of rough diffuse surfaces.
+    Diffuse,
 }
 
 pub fn check_size(size: usize) -> anyhow::Result<()> {
@@ -60,11 +64,17 @@ pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
                 arguments.out.display()
             )
         })?;
-    let family = arguments.model.family()?;
     let (settings, technique) = match arguments.layout {
-        LayoutName::Native => (Settings::native(arguments.size), Technique::Include),
-        LayoutName::Compatible => (Settings::compatible(arguments.size), Technique::Published),
+        LayoutName::Native => (Settings::native(arguments.size), Some(Technique::Include)),
+        LayoutName::Compatible => (Settings::compatible(arguments.size), Some(Technique::Published)),
+        LayoutName::Sheen => (Settings::sheen(arguments.size), None),
+        LayoutName::Diffuse => (Settings::diffuse(arguments.size), None),
     };
+    let family = arguments.model.family_for(settings.layout)?;
+    anyhow::ensure!(
+        technique.is_some() || !arguments.measure,
+        "--measure is for tables of specular lobes, the layouts native and compatible"
+    );
     let bar = progress::bar("Baking");
     let fitted = fit::bake(&family, settings, &|share| progress::advance(&bar, share));
     bar.finish_and_clear();
@@ -77,7 +87,7 @@ pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
         bytes.len(),
         started.elapsed().as_secs_f64()
     );
-    if arguments.measure {
+    if let Some(technique) = technique.filter(|_| arguments.measure) {
         let bar = progress::bar("Measuring");
         let measured = measure(&table, technique, &family, 200, &|share| progress::advance(&bar, share));
         bar.finish_and_clear();

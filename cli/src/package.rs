@@ -36,8 +36,8 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     let shown = Mutex::new(None);
     let package = package::build(&family, &contents, &|step, share| {
         let what = match step {
-            Step::Bake(Layout::Native) => "Baking the table",
             Step::Bake(Layout::Compatible) => "Baking the compatible",
+            Step::Bake(_) => "Baking the table",
             Step::Measure(_) => "Measuring",
             Step::Translate => "Translating",
         };

@@ -176,7 +176,11 @@ impl Device {
             self.queue(),
             &wgpu::TextureDescriptor {
                 label: None,
-                size: wgpu::Extent3d { width: size, height: size, depth_or_array_layers: 2 },
+                size: wgpu::Extent3d {
+                    width: size,
+                    height: size,
+                    depth_or_array_layers: table.layers().len() as u32,
+                },
                 mip_level_count: 1,
                 sample_count: 1,
                 dimension: wgpu::TextureDimension::D2,

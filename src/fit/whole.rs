@@ -120,7 +120,8 @@ fn interpolate(sample: &Sample, field: &[[f64; 4]]) -> [f64; 4] {
 }
 
 fn quadratics(fitted: &Fitted, samples: &[Sample], field: &[[f64; 4]]) -> Vec<Quadratic> {
-    let Settings { layout, horizon, schlick_weight, .. } = fitted.settings;
+    let layout = fitted.settings.layout;
+    let goal = fitted.settings.goal();
     samples
         .par_iter()
         .map(|sample| {
@@ -129,7 +130,7 @@ fn quadratics(fitted: &Fitted, samples: &[Sample], field: &[[f64; 4]]) -> Vec<Qu
             if lobe.determinant() <= 0.0 || lobe.x <= 0.0 || lobe.w <= 0.0 {
                 return Quadratic { gradient: [0.0; 4], hessian: [[0.0; 4]; 4], loss: f64::INFINITY };
             }
-            let Normal { loss, gradient, hessian } = sample.target.normal(&lobe, horizon, schlick_weight);
+            let Normal { loss, gradient, hessian } = sample.target.normal(&lobe, goal);
             let (_, scale) = layout.affine(sample.alpha, sample.cosine);
             Quadratic {
                 loss,

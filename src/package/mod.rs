@@ -95,14 +95,13 @@ pub fn build(
     progress: &(dyn Fn(Step, f64) + Sync),
 ) -> Result<Package, PackageError> {
     let mut package = Package { files: Vec::new(), native: None, compatible: None };
-    for layout in [Layout::Native, Layout::Compatible] {
-        let (settings, technique, name) = match layout {
-            Layout::Native => (Settings::native(contents.table_size), Technique::Include, "ltc"),
-            Layout::Compatible if !contents.compatible => continue,
-            Layout::Compatible => {
-                (Settings::compatible(contents.table_size), Technique::Published, "ltc_compatible")
-            }
-        };
+    let size = contents.table_size;
+    let mut tables = vec![(Settings::native(size), Technique::Include, "ltc")];
+    if contents.compatible {
+        tables.push((Settings::compatible(size), Technique::Published, "ltc_compatible"));
+    }
+    for (settings, technique, name) in tables {
+        let layout = settings.layout;
         let fitted = fit::bake(family, settings, &|share| progress(Step::Bake(layout), share));
         let table = Table::pack(&fitted);
         for container in &contents.containers {
@@ -113,9 +112,9 @@ pub fn build(
             let measured = measure(&table, technique, family, contents.quads, &|share| {
                 progress(Step::Measure(layout), share);
             });
-            match layout {
-                Layout::Native => package.native = Some(measured),
-                Layout::Compatible => package.compatible = Some(measured),
+            match technique {
+                Technique::Include => package.native = Some(measured),
+                Technique::Published => package.compatible = Some(measured),
             }
         }
     }

@@ -18,6 +18,7 @@
 //! assert!((value.x - 0.2395).abs() < 1e-4); // the form factor
 //! ```
 
+mod layers;
 mod polygon;
 mod quad;
 mod real;
@@ -25,6 +26,10 @@ mod surface;
 mod texture;
 mod tube;
 
+pub use layers::{
+    LTC_ALBEDO_FLOOR, LTC_SHEEN_ROUGHNESS_FLOOR, ltc_coat_over, ltc_coat_transmission, ltc_diffuse_lobe,
+    ltc_energy_compensation, ltc_rough_diffuse, ltc_sheen_lobe, ltc_sheen_over, ltc_surface_with_roughness,
+};
 pub use polygon::{
     LtcOutline, LtcOutlineLobe, LtcPolygon, ltc_outline_add, ltc_outline_begin, ltc_outline_diffuse,
     ltc_outline_lobe, ltc_outline_lobe_add, ltc_outline_lobe_begin, ltc_polygon_add, ltc_polygon_begin,
@@ -39,8 +44,8 @@ pub use quad::{
 pub use real::{Real, Vector, angle_excess};
 pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
-    ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular, ltc_surface, ltc_table_coordinates,
-    ltc_transform, ltc_transform_normal, ltc_value,
+    ltc_planar_lobe, ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular, ltc_surface,
+    ltc_table_coordinates, ltc_transform, ltc_transform_normal, ltc_value,
 };
 pub use texture::{
     LTC_LOOKUP, LookupConstants, LtcLookup, ltc_lookup, ltc_lookup_with, ltc_outlined,

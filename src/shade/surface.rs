@@ -124,17 +124,27 @@ pub fn ltc_lobe<R: Real>(surface: &LtcSurface<R>, shape: R::Vec4, amplitude: R::
     let [x, y, z, w] = shape.into();
     let [albedo, fresnel, ..] = amplitude.into();
     let m = [c * c + a * x, a * s * y, s * (c + a * z), a * w];
+    ltc_planar_lobe(surface, m, albedo, fresnel)
+}
+
+/// The lobe whose inverse matrix has the rows (x, 0, z), (0, 1, 0), (y, 0, w) in the surface's frame.
+pub fn ltc_planar_lobe<R: Real>(
+    surface: &LtcSurface<R>,
+    [x, y, z, w]: [R; 4],
+    albedo: R,
+    fresnel: R,
+) -> LtcLobe<R> {
     let half: R = R::new(0.5);
     LtcLobe {
-        axis_x: surface.tangent * m[0] + surface.normal * m[2],
+        axis_x: surface.tangent * x + surface.normal * z,
         albedo,
         axis_y: surface.bitangent,
         fresnel,
-        axis_z: surface.tangent * m[1] + surface.normal * m[3],
-        share: half + half * m[0] * (m[0] * m[0] + m[1] * m[1]).max(R::new(LTC_TINY)).inverse_sqrt(),
-        normal_x: surface.tangent * m[3] - surface.normal * m[1],
-        normal_y: surface.bitangent * (m[0] * m[3] - m[1] * m[2]),
-        normal_z: surface.normal * m[0] - surface.tangent * m[2],
+        axis_z: surface.tangent * y + surface.normal * w,
+        share: half + half * x * (x * x + y * y).max(R::new(LTC_TINY)).inverse_sqrt(),
+        normal_x: surface.tangent * w - surface.normal * y,
+        normal_y: surface.bitangent * (x * w - y * z),
+        normal_z: surface.normal * x - surface.tangent * z,
     }
 }
 

@@ -7,9 +7,9 @@ use super::Table;
 pub enum Container {
     /// The bytes of [`Table::bytes`] and nothing else.
     Raw,
-    /// A DirectDraw surface with the DX10 header: a texture array of two R16G16B16A16_FLOAT layers.
+    /// A DirectDraw surface with the DX10 header: a texture array of R16G16B16A16_FLOAT layers.
     Dds,
-    /// Khronos texture 2: an array of two R16G16B16A16_SFLOAT layers, without supercompression.
+    /// Khronos texture 2: an array of R16G16B16A16_SFLOAT layers, without supercompression.
     Ktx,
     /// A Rust constant, `pub const LTC_TABLE: [u16; …]`.
     Rust,
@@ -61,7 +61,7 @@ fn dds(table: &Table) -> Result<Vec<u8>, ContainerError> {
         depth: None,
         format: ddsfile::DxgiFormat::R16G16B16A16_Float,
         mipmap_levels: None,
-        array_layers: Some(2),
+        array_layers: Some(table.layers().len() as u32),
         caps2: None,
         is_cubemap: false,
         resource_dimension: ddsfile::D3D10ResourceDimension::Texture2D,
@@ -88,11 +88,13 @@ fn ktx(table: &Table) -> Vec<u8> {
     // Level data starts at a multiple of the texel's 8 bytes.
     let data_at = (descriptor_at + DESCRIPTOR_LENGTH).next_multiple_of(8);
     let size = table.size() as u32;
+    // An array of one layer is written as such, not as a plain texture.
+    let layers = table.layers().len() as u32;
 
     let mut bytes = IDENTIFIER.to_vec();
     let mut put = |word: u32| bytes.extend(word.to_le_bytes());
     // vkFormat, typeSize, width, height, depth, layers, faces, levels, supercompression.
-    for word in [VK_FORMAT_R16G16B16A16_SFLOAT, 2, size, size, 0, 2, 1, 1, 0] {
+    for word in [VK_FORMAT_R16G16B16A16_SFLOAT, 2, size, size, 0, layers, 1, 1, 0] {
         put(word);
     }
     // Offsets and lengths of descriptor, key/value data and (64-bit) supercompression data.
@@ -136,8 +138,13 @@ fn words(table: &Table) -> impl Iterator<Item = String> {
 
 fn describe(table: &Table) -> String {
     let size = table.size();
+    let layers = match table.layers().len() {
+        1 => "One layer".to_owned(),
+        2 => "Two layers".to_owned(),
+        count => format!("{count} layers"),
+    };
     format!(
-        "Two layers of {size} x {size} texels of four half-precision numbers, as their bits; layer\n// after layer, row after row, roughness fastest."
+        "{layers} of {size} x {size} texels of four half-precision numbers, as their bits; layer\n// after layer, row after row, roughness fastest."
     )
 }
 
@@ -146,7 +153,7 @@ fn rust(table: &Table) -> String {
     let mut text = format!(
         "// {}\n\n/// Texels along each axis.\npub const LTC_TABLE_SIZE: usize = {size};\n\n/// The texels of an RGBA16F texture array.\n#[rustfmt::skip]\npub const LTC_TABLE: [u16; {}] = [\n",
         describe(table),
-        8 * size * size
+        4 * table.layers().len() * size * size
     );
     for row in words(table) {
         text.push_str("    ");
@@ -162,7 +169,7 @@ fn c(table: &Table) -> String {
     let mut text = format!(
         "// {}\n\n#ifndef LTC_TABLE_INCLUDED\n#define LTC_TABLE_INCLUDED\n\n#include <stdint.h>\n\n#define LTC_TABLE_SIZE {size}\n\nstatic const uint16_t ltc_table[{}] = {{\n",
         describe(table),
-        8 * size * size
+        4 * table.layers().len() * size * size
     );
     for row in words(table) {
         text.push_str("    ");

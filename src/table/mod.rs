@@ -12,15 +12,48 @@ pub use pack::clipped_sphere;
 
 use half::f16;
 
-use crate::shade::{LtcLobe, LtcSurface, Real, ltc_lobe, ltc_surface, ltc_table_coordinates};
+use crate::shade::{
+    LtcLobe, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface, ltc_table_coordinates,
+};
 
-/// A table of half-precision texels: two layers of `size` × `size` texels of four numbers.
+/// What a layer of a table holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Layer {
+    /// The specular lobe's shape.
+    Shape,
+    /// The specular lobe's albedo and its Schlick part.
+    Amplitude,
+    /// The lobe of a sheen with its albedo.
+    Sheen,
+    /// The lobe of a rough diffuse surface with its albedo.
+    Diffuse,
+}
+
+impl Layer {
+    /// The layers that every specular surface needs, at the places where the include's
+    /// `ltc_lobe_from_table` looks for them.
+    pub const BASE: [Self; 2] = [Self::Shape, Self::Amplitude];
+}
+
+/// A table of half-precision texels: layers of `size` × `size` texels of four numbers, at first
+/// [`Layer::BASE`] and then whatever else a renderer's surfaces need:
+///
+/// ```
+/// use softbox::table::{Layer, Table};
+///
+/// let table = Table::default().with(&Table::sheen());
+/// assert_eq!(table.layers(), [Layer::Shape, Layer::Amplitude, Layer::Sheen]);
+/// // What to give to the shader's ltc_sheen_lobe_from_table.
+/// assert_eq!(table.index(Layer::Sheen), Some(2));
+/// assert_eq!(table.index(Layer::Diffuse), None);
+/// ```
 ///
 /// Its bytes are those of an RGBA16F texture array without mipmaps: little-endian, layer after
 /// layer, row after row, roughness fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Table {
     size: usize,
+    layers: Vec<Layer>,
     texels: Vec<[f16; 4]>,
 }
 
@@ -29,15 +62,16 @@ pub struct Table {
 pub struct TableError {
     length: usize,
     size: usize,
+    layers: usize,
 }
 
 impl core::fmt::Display for TableError {
     fn fmt(&self, formatter: &mut core::fmt::Formatter) -> core::fmt::Result {
-        let Self { length, size } = self;
+        let Self { length, size, layers } = self;
         write!(
             formatter,
-            "a table of {size} × {size} texels has {} bytes and finite numbers only; these {length} bytes are not one",
-            16 * size * size
+            "a table of {layers} × {size} × {size} texels has {} bytes and finite numbers only; these {length} bytes are not one",
+            8 * layers * size * size
         )
     }
 }
@@ -53,26 +87,63 @@ impl Default for Table {
 
 impl Table {
     #[cfg(feature = "bake")]
-    pub(crate) fn new(size: usize, texels: Vec<[f16; 4]>) -> Self {
-        Self { size, texels }
+    pub(crate) fn new(size: usize, layers: Vec<Layer>, texels: Vec<[f16; 4]>) -> Self {
+        Self { size, layers, texels }
     }
 
-    /// Reads the bytes that [`Table::bytes`] writes.
+    /// The embedded layer for [`Charlie`](crate::brdf::Charlie)'s sheen.
+    pub fn sheen() -> Self {
+        Self::from_layers(crate::TABLE_SIZE, &[Layer::Sheen], crate::TABLE_SHEEN)
+            .expect("the embedded layer is whole")
+    }
+
+    /// The embedded layer for the single scattering of [`Eon`](crate::brdf::Eon)'s rough diffuse
+    /// surface.
+    pub fn diffuse() -> Self {
+        Self::from_layers(crate::TABLE_SIZE, &[Layer::Diffuse], crate::TABLE_DIFFUSE)
+            .expect("the embedded layer is whole")
+    }
+
+    /// This table with the layers of another one behind its own.
+    ///
+    /// # Panics
+    ///
+    /// If the two differ in size, or have a layer in common.
+    pub fn with(mut self, other: &Self) -> Self {
+        assert_eq!(self.size, other.size, "layers of one table are of one size");
+        for layer in &other.layers {
+            assert!(!self.layers.contains(layer), "the table has its {layer:?} already");
+        }
+        self.layers.extend(&other.layers);
+        self.texels.extend(&other.texels);
+        self
+    }
+
+    /// Reads the bytes that [`Table::bytes`] writes for a table of [`Layer::BASE`].
     ///
     /// # Errors
     ///
     /// If there are not 16·`size`² bytes, or a number among them is not finite.
     pub fn from_bytes(size: usize, bytes: &[u8]) -> Result<Self, TableError> {
-        let error = TableError { length: bytes.len(), size };
-        let expected = size.checked_mul(size).and_then(|texels| texels.checked_mul(16));
-        if size < 2 || expected != Some(bytes.len()) {
+        Self::from_layers(size, &Layer::BASE, bytes)
+    }
+
+    /// Reads the bytes that [`Table::bytes`] writes for a table of the given layers.
+    ///
+    /// # Errors
+    ///
+    /// If there are not 8·`size`² bytes a layer, or a number among them is not finite.
+    pub fn from_layers(size: usize, layers: &[Layer], bytes: &[u8]) -> Result<Self, TableError> {
+        let error = TableError { length: bytes.len(), size, layers: layers.len() };
+        let expected = size.checked_mul(size).and_then(|texels| texels.checked_mul(8 * layers.len()));
+        if size < 2 || layers.is_empty() || expected != Some(bytes.len()) {
             return Err(error);
         }
         let number = |i: usize| f16::from_le_bytes([bytes[2 * i], bytes[2 * i + 1]]);
         let texels: Vec<[f16; 4]> =
             (0..bytes.len() / 8).map(|texel| core::array::from_fn(|k| number(4 * texel + k))).collect();
         if texels.iter().flatten().all(|number| number.is_finite()) {
-            Ok(Self { size, texels })
+            Ok(Self { size, layers: layers.to_vec(), texels })
         } else {
             Err(error)
         }
@@ -83,6 +154,16 @@ impl Table {
         self.size
     }
 
+    /// What the layers hold, in their order.
+    pub fn layers(&self) -> &[Layer] {
+        &self.layers
+    }
+
+    /// The place of a layer in the texture array.
+    pub fn index(&self, layer: Layer) -> Option<usize> {
+        self.layers.iter().position(|held| *held == layer)
+    }
+
     /// The four numbers of a texel.
     ///
     /// # Panics
@@ -90,7 +171,7 @@ impl Table {
     /// If there is no such texel.
     pub fn texel(&self, layer: usize, column: usize, row: usize) -> [f16; 4] {
         assert!(
-            layer < 2 && column < self.size && row < self.size,
+            layer < self.layers.len() && column < self.size && row < self.size,
             "no texel ({column}, {row}) in layer {layer}"
         );
         self.texels[(layer * self.size + row) * self.size + column]
@@ -131,6 +212,30 @@ impl Table {
         let shape = self.sample::<R>(0, [u, v].into());
         let amplitude = self.sample::<R>(1, [u, v].into());
         ltc_lobe(surface, shape, amplitude)
+    }
+
+    /// The lobe of a sheen; the surface's roughness is the sheen's.
+    ///
+    /// # Panics
+    ///
+    /// If the table has no such layer.
+    pub fn sheen_lobe<R: Real>(&self, surface: &LtcSurface<R>) -> LtcLobe<R> {
+        ltc_sheen_lobe(surface, self.sample_layer(surface, Layer::Sheen))
+    }
+
+    /// The lobe of a rough diffuse surface's single scattering; the surface's roughness is the diffuse
+    /// one.
+    ///
+    /// # Panics
+    ///
+    /// If the table has no such layer.
+    pub fn diffuse_lobe<R: Real>(&self, surface: &LtcSurface<R>) -> LtcLobe<R> {
+        ltc_diffuse_lobe(surface, self.sample_layer(surface, Layer::Diffuse))
+    }
+
+    fn sample_layer<R: Real>(&self, surface: &LtcSurface<R>, layer: Layer) -> R::Vec4 {
+        let index = self.index(layer).unwrap_or_else(|| panic!("the table has no layer {layer:?}"));
+        self.sample::<R>(index, ltc_table_coordinates(surface, R::new(self.size as f64)))
     }
 
     /// The largest value per steradian that any small light can have on a surface at least as rough as `roughness`,

@@ -3,17 +3,30 @@
 use core::f64::consts::PI;
 use half::f16;
 
-use super::Table;
+use super::{Layer, Table};
 use crate::fit::{Fitted, Layout};
 
 impl Table {
-    /// Rounds a fitted table to half precision. The second layer holds albedo and Schlick part; in
+    /// Rounds a fitted table to half precision: to one layer in the layouts of sheen and of rough
+    /// diffuse surfaces, to two in the others. The second one holds albedo and Schlick part; in
     /// the compatible layout its fourth number is the horizon-clipped sphere of the published
     /// table, see [`clipped_sphere`].
     ///
     /// No texel is subnormal: some devices flush those to zero, so all see the same numbers.
     pub fn pack(fitted: &Fitted) -> Self {
         let size = fitted.settings.size;
+        let single = match fitted.settings.layout {
+            Layout::Sheen => Some((Layer::Sheen, [0, 2, 3])),
+            Layout::Diffuse => Some((Layer::Diffuse, [1, 2, 3])),
+            Layout::Native | Layout::Compatible => None,
+        };
+        if let Some((layer, [a, b, c])) = single {
+            let texels = fitted.texels.iter().map(|texel| {
+                let shape = texel.parameters;
+                [shape[a], shape[b], shape[c], texel.albedo].map(normal_half)
+            });
+            return Self::new(size, vec![layer], texels.collect());
+        }
         let compatible = fitted.settings.layout == Layout::Compatible;
         let shape = fitted.texels.iter().map(|texel| {
             let mut texel = texel.parameters.map(normal_half);
@@ -31,7 +44,7 @@ impl Table {
             let sphere = if compatible { clipped_sphere(2.0 * column - 1.0, row) } else { 0.0 };
             [texel.albedo, texel.fresnel, 0.0, sphere].map(normal_half)
         });
-        Self::new(size, shape.chain(amplitude).collect())
+        Self::new(size, Layer::BASE.to_vec(), shape.chain(amplitude).collect())
     }
 }
 

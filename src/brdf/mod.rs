@@ -4,6 +4,12 @@
 //! point away from the surface. Fresnel reflectance is left out (F = 1); it enters at shading time
 //! through the table's Schlick part.
 
+mod charlie;
+mod eon;
+
+pub use charlie::{Charlie, SHEEN_ROUGHNESS_FLOOR, Visibility};
+pub use eon::{Eon, Scattering};
+
 use core::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
