@@ -1575,3 +1575,622 @@ fn ltc_coat_over(base: vec3<f32>, coat: LtcLobe, value: vec3<f32>, reflectance: 
 fn ltc_energy_compensation(lobe: LtcLobe, normal_reflectance: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(1.0) + normal_reflectance * (1.0 / max(lobe.albedo, LTC_ALBEDO_FLOOR) - 1.0);
 }
+
+// ---------------------------------------------------------------------------------------------
+// Cones over ellipses
+//
+// Seen from the surface point a disk fills an elliptical cone, in the caller's space and in every lobe's
+// (Heitz and Hill 2017, "Real-Time Line- and Disk-Light Shading with Linearly Transformed Cosines"). Its rim
+// is r(t) = c + x cos t + y sin t, and everything about the cone is in the symmetric matrix
+//     D = x x^T + y y^T - c c^T,
+// whose one negative eigenvalue, -m, belongs to the cone's axis. With the ellipse's semi-axes a and b and the
+// coordinates (x, y, z) of c along them and across, m is the largest root of
+//     x^2 / (a^2 + m) + y^2 / (b^2 + m) + z^2 / m = 1:
+// of the ellipsoids that have the ellipse as their focal conic, the one through the surface point has the
+// square m of its least semi-axis, and its normal there is the axis. All terms are positive: digits are lost
+// only where the rim itself passes the surface point closely, however large, small, near or oblique the disk is.
+//
+// The whole cone's vector form factor points along the axis; its length is the product of the sines of the
+// cone's half-angles along the other two eigenvectors. Of a cone cut by planes the boundary consists of
+// pieces of the planes, which are edges (see ltc_edge), and arcs. Along the arc between the directions u and
+// v of two points of the rim, whose parameters differ by d,
+//     integral of r x dr / r.r = E(k - h D) (u x v),   k = 1 - u.v,   h = (1 - cos d) / (|r_u| |r_v|),
+// where E(1 - cos w) = w / sin w is applied to a matrix by its eigenvalues. Along the axis w is the angle
+// swept around it, of the larger of the other eigenvectors it is imaginary: E = w / sinh w with cosh.
+// ---------------------------------------------------------------------------------------------
+
+/// The cone over an ellipse. Vectors "in the frame" have their components along the ellipse's axes; lengths
+/// have a unit that makes them about 1.
+struct LtcCone {
+    /// First semi-axis.
+    half_x: vec3<f32>,
+    /// Minus the negative eigenvalue.
+    depth: f32,
+    /// Second semi-axis, conjugate to the first.
+    half_y: vec3<f32>,
+    /// Length of the vector form factor of the whole cone.
+    whole: f32,
+    /// The ellipse's centre.
+    centre: vec3<f32>,
+    /// Factor on lengths that leads to the unit.
+    scale: f32,
+    /// First axis of the frame, along the ellipse's longer axis.
+    first: vec3<f32>,
+    /// Square of half the longer axis.
+    first_square: f32,
+    /// Second axis of the frame, along the shorter axis.
+    second: vec3<f32>,
+    /// Square of half the shorter axis.
+    second_square: f32,
+    /// Third axis of the frame, away from the surface point.
+    third: vec3<f32>,
+    /// Reciprocal of the distance at which the cone's axis meets the ellipse's plane.
+    nearness: f32,
+    /// The ellipse's centre in the frame.
+    place: vec3<f32>,
+    /// Where the cone's axis meets the ellipse's plane, in units of the semi-axes given: the first one's.
+    pierced_x: f32,
+    /// The cone's axis in the frame, a unit vector.
+    axis: vec3<f32>,
+    /// The same, the second one's.
+    pierced_y: f32,
+}
+
+/// The other two eigenvectors of a cone, in the frame, unit vectors.
+struct LtcAcross {
+    /// That across the wider side.
+    first: vec3<f32>,
+    /// Its eigenvalue.
+    first_value: f32,
+    /// That across the narrower side.
+    second: vec3<f32>,
+    /// Its eigenvalue.
+    second_value: f32,
+}
+
+/// A plane through the surface point, as it cuts an ellipse. In units of the semi-axes given the ellipse is the
+/// unit circle, and the plane cuts it along a chord.
+struct LtcCut {
+    /// Normal of the plane, a unit vector towards the side that counts.
+    normal: vec3<f32>,
+    /// Height of the circle's centre over the plane.
+    height: f32,
+    /// Direction of rise in the circle's plane.
+    toward: vec2<f32>,
+    /// Rise by one radius.
+    steepness: f32,
+    /// Distance of the chord from the centre along `toward`: at least 1 where nothing counts, at most -1 where
+    /// everything does.
+    offset: f32,
+    /// Half the length of the chord.
+    reach: f32,
+    /// Length of the cross product of the chord's middle and a radius along the chord.
+    moment: f32,
+}
+
+/// 1 - E for an imaginary angle: 1 - w / sinh w from k = cosh w - 1, not negative. The error is below 2e-7.
+/// The coefficients are the minimax fit `softbox::fit::fit_hyperbolic_excess` of degree 5; the logarithm's
+/// argument is at least 3.7, where WGSL guarantees it to 3 ULP.
+fn ltc_hyperbolic_deficit(k: f32) -> f32 {
+    if (k < 1.0) {
+        let high = (0.001350465 * k - 0.0076216036) * k + 0.023172159;
+        return -((((high * k - 0.05646018) * k + 0.13323359) * k - 0.33332837) * k);
+    }
+    let bounded = min(k, 1e18);
+    let square = bounded * (bounded + 2.0);
+    let inverse_sine = inverseSqrt(square);
+    return 1.0 - log(bounded + 1.0 + square * inverse_sine) * inverse_sine;
+}
+
+/// Cosine and sine of the angle by which to turn the first of two conjugate semi-axes to the longer axis of their
+/// ellipse: half the angle of the vector (`difference`, `product`) of half the difference of their squares and
+/// their scalar product.
+fn ltc_half_turn(difference: f32, product: f32) -> vec2<f32> {
+    let square = difference * difference + product * product;
+    let inverse_length = inverseSqrt(max(square, 1e-30));
+    // A circle has no longer axis.
+    let circular = square < 1e-30;
+    let cosine = select(abs(difference) * inverse_length, 1.0, circular);
+    let sine = select(product * inverse_length, 0.0, circular);
+    let large_square = 0.5 + 0.5 * cosine;
+    let inverse_large = inverseSqrt(large_square);
+    let large = large_square * inverse_large;
+    let small = 0.5 * sine * inverse_large;
+    return select(vec2<f32>(small, large), vec2<f32>(large, small), difference >= 0.0);
+}
+
+/// The plane with the unit vector `normal` as it cuts the ellipse with the semi-axes `half_x` and `half_y` times
+/// `size` around `centre`.
+fn ltc_cut(normal: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, size: f32, centre: vec3<f32>) -> LtcCut {
+    let slope = vec2<f32>(dot(normal, half_x), dot(normal, half_y));
+    let square = dot(slope, slope);
+    let inverse_slope = inverseSqrt(max(square, LTC_TINY));
+    var cut: LtcCut;
+    cut.normal = normal;
+    cut.height = dot(normal, centre);
+    cut.toward = slope * inverse_slope;
+    cut.steepness = size * square * inverse_slope;
+    cut.offset = -cut.height / max(cut.steepness, LTC_TINY);
+    let bounded = clamp(cut.offset, -1.0, 1.0);
+    let reach_square = (1.0 - bounded) * (1.0 + bounded);
+    cut.reach = reach_square * inverseSqrt(max(reach_square, LTC_TINY));
+    let middle = centre + (half_x * cut.toward.x + half_y * cut.toward.y) * (size * bounded);
+    let along = (half_x * cut.toward.y - half_y * cut.toward.x) * size;
+    cut.moment = max(dot(normal, cross(middle, along)), 0.0);
+    return cut;
+}
+
+/// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
+/// of whose roots are real.
+fn ltc_cone_step(x: f32, quadratic: f32, linear: f32, constant: f32) -> f32 {
+    let value = ((x + quadratic) * x + linear) * x + constant;
+    let slope = (3.0 * x + 2.0 * quadratic) * x + linear;
+    let bend = 6.0 * x + 2.0 * quadratic;
+    let under = max(4.0 * slope * slope - 6.0 * value * bend, 0.0);
+    let root = under * inverseSqrt(max(under, LTC_TINY));
+    return x - 3.0 * value / max(slope + root, LTC_TINY);
+}
+
+/// The cone over the ellipse with the semi-axes `half_x` and `half_y` times `size` around `centre`. `normal` is the
+/// cross product of the two, `volume` its scalar product with the centre, which must not be negative.
+fn ltc_cone(half_x: vec3<f32>, half_y: vec3<f32>, size: f32, centre: vec3<f32>, normal: vec3<f32>, volume: f32) -> LtcCone {
+    // The ellipse's axes. Its width comes from the normal: the difference of conjugate semi-axes has lost the
+    // digits of a slender one's.
+    let turn = ltc_half_turn(0.5 * (dot(half_x, half_x) - dot(half_y, half_y)), dot(half_x, half_y));
+    let longest = half_x * turn.x + half_y * turn.y;
+    let long_square = dot(longest, longest);
+    let long_inverse = inverseSqrt(max(long_square, LTC_TINY));
+    let normal_square = dot(normal, normal);
+    let normal_inverse = inverseSqrt(max(normal_square, LTC_TINY));
+    let aspect = min(normal_square * normal_inverse * long_inverse * long_inverse, 1.0);
+    let long_half = size * long_square * long_inverse;
+    var cone: LtcCone;
+    cone.scale = inverseSqrt(max(dot(centre, centre) + long_half * long_half, LTC_TINY));
+    cone.first = longest * long_inverse;
+    cone.third = normal * normal_inverse;
+    cone.second = cross(cone.third, cone.first);
+    cone.half_x = half_x * (size * cone.scale);
+    cone.half_y = half_y * (size * cone.scale);
+    cone.centre = centre * cone.scale;
+    cone.place = vec3<f32>(dot(cone.centre, cone.first), dot(cone.centre, cone.second), volume * normal_inverse * cone.scale);
+    let a = long_half * cone.scale;
+    let b = a * aspect;
+    let p = cone.place * cone.place;
+    let s = vec2<f32>(a * a, b * b);
+    cone.first_square = s.x;
+    cone.second_square = s.y;
+
+    // The least possible depth: with both poles of the ellipse's plane drawn together into one that has the same
+    // value and slope at 0, which is exact for a circle.
+    let aspect_square = aspect * aspect;
+    let joint = p.x * aspect_square + p.y;
+    let ratio = joint / max(p.x * aspect_square * aspect_square + p.y, LTC_TINY);
+    let pole = min(s.y * ratio, s.x);
+    let weight = min(joint * ratio, p.x + p.y);
+    let middle = 0.5 * (weight + p.z - pole);
+    let under = middle * middle + p.z * pole;
+    let root = under * inverseSqrt(max(under, LTC_TINY));
+    let lowest = select(p.z * pole / max(root - middle, LTC_TINY), middle + root, middle > 0.0);
+    let highest = p.x + p.y + p.z;
+    let quadratic = s.x + s.y - highest;
+    let linear = s.y * (s.x - p.x - p.z) - s.x * (p.y + p.z);
+    let constant = -p.z * s.x * s.y;
+    var depth = lowest;
+    if (aspect < 0.9999) {
+        // From there up, three steps reach the root to rounding unless the ellipse is more slender than 1 : 10000.
+        depth = min(max(ltc_cone_step(depth, quadratic, linear, constant), lowest), highest);
+        depth = min(max(ltc_cone_step(depth, quadratic, linear, constant), lowest), highest);
+        depth = min(max(ltc_cone_step(depth, quadratic, linear, constant), lowest), highest);
+    }
+    cone.depth = max(depth, LTC_TINY);
+
+    let inverse_x = 1.0 / max(s.x + cone.depth, LTC_TINY);
+    let inverse_y = 1.0 / max(s.y + cone.depth, LTC_TINY);
+    let toward = vec3<f32>(cone.place.x * cone.depth * inverse_x, cone.place.y * cone.depth * inverse_y, cone.place.z);
+    cone.nearness = inverseSqrt(max(dot(toward, toward), LTC_TINY));
+    cone.axis = toward * cone.nearness;
+    let spread = inverseSqrt(max((s.x + cone.depth) * (s.y + cone.depth), LTC_TINY));
+    cone.whole = min(cone.place.z * cone.nearness * (a * b * spread), 1.0);
+    let pierced = vec2<f32>(-a * cone.place.x * inverse_x, -b * cone.place.y * inverse_y);
+    cone.pierced_x = pierced.x * turn.x - pierced.y * turn.y;
+    cone.pierced_y = pierced.x * turn.y + pierced.y * turn.x;
+    return cone;
+}
+
+/// `v` in the cone's frame.
+fn ltc_cone_inward(cone: LtcCone, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(cone.first, v), dot(cone.second, v), dot(cone.third, v));
+}
+
+/// `v`, given in the cone's frame, in the space that the cone is in.
+fn ltc_cone_outward(cone: LtcCone, v: vec3<f32>) -> vec3<f32> {
+    return cone.first * v.x + cone.second * v.y + cone.third * v.z;
+}
+
+/// The point of the ellipse's plane at `p`, in units of the semi-axes given.
+fn ltc_cone_point(cone: LtcCone, p: vec2<f32>) -> vec3<f32> {
+    return cone.centre + cone.half_x * p.x + cone.half_y * p.y;
+}
+
+/// Cosine between the cone's axis and a plane's normal.
+fn ltc_cone_tilt(cone: LtcCone, cut: LtcCut) -> f32 {
+    // A distant light's from the heights over the plane, which keep their digits on the horizon.
+    let rise = (cone.pierced_x * cut.toward.x + cone.pierced_y * cut.toward.y) * cut.steepness;
+    let distant = (cut.height + rise) * cone.scale * cone.nearness;
+    return select(dot(cone.axis, ltc_cone_inward(cone, cut.normal)), distant, cone.first_square < 0.06);
+}
+
+/// The axes across a cone. With W = diag(a^2 + m, b^2 + m, m), D + m = W^1/2 (1 - g g^T) W^1/2 for the unit vector
+/// g = W^-1/2 c, so the remaining eigenvalues are those of diag(a^2, b^2, 0) restricted to the plane across g: a
+/// matrix of two by two whose entries are sums of positive terms.
+fn ltc_cone_across(cone: LtcCone) -> LtcAcross {
+    let a_square = cone.first_square;
+    let b_square = cone.second_square;
+    let w = vec3<f32>(a_square + cone.depth, b_square + cone.depth, cone.depth);
+    let inverse_root = vec3<f32>(inverseSqrt(max(w.x, LTC_TINY)), inverseSqrt(max(w.y, LTC_TINY)), inverseSqrt(w.z));
+    let weighted = cone.place * inverse_root;
+    let g = weighted * inverseSqrt(max(dot(weighted, weighted), LTC_TINY));
+    let q = -1.0 / (1.0 + g.z);
+    let u = vec3<f32>(1.0 + g.x * g.x * q, g.x * g.y * q, -g.x);
+    let v = vec3<f32>(g.x * g.y * q, 1.0 + g.y * g.y * q, -g.y);
+    let u_square = a_square * u.x * u.x + b_square * u.y * u.y;
+    let v_square = a_square * v.x * v.x + b_square * v.y * v.y;
+    let product = a_square * u.x * v.x + b_square * u.y * v.y;
+    let scale = 1.0 / max(u_square + v_square, LTC_TINY);
+    let turn = ltc_half_turn(0.5 * scale * (u_square - v_square), scale * product);
+    let wide = u * turn.x + v * turn.y;
+    let first = wide * w * inverse_root;
+    var across: LtcAcross;
+    across.first = first * inverseSqrt(max(dot(first, first), LTC_TINY));
+    across.first_value = a_square * wide.x * wide.x + b_square * wide.y * wide.y;
+    across.second = cross(cone.axis, across.first);
+    across.second_value = min(a_square * (b_square / max(across.first_value, LTC_TINY)) * (g.z * g.z), across.first_value);
+    return across;
+}
+
+/// The integral along an arc, less a vector along `normal` whose length is the sine below and of which `rest` gives
+/// back a part; components along the axes across the cone and its own. The arc's chord spans the plane with the unit
+/// vector `normal` (components along the same axes), `sine` is the sine of the angle between its ends, `k` that
+/// angle's 1 - cosine, `ratio` the h of the formula above; `large` tells an arc of more than half the cone.
+fn ltc_cone_sweep(cone: LtcCone, across: LtcAcross, normal: vec3<f32>, sine: f32, k: f32, ratio: f32, large: bool, rest: f32) -> vec3<f32> {
+    let first = rest + sine * ltc_hyperbolic_deficit(max(ratio * across.first_value - k, 0.0));
+
+    let second_k = clamp(k - ratio * across.second_value, 0.0, 2.0);
+    let second_excess = ltc_angle_excess(min(second_k, 2.0 - second_k));
+    var second = (rest - sine * second_excess) * normal.y;
+    if (second_k > 1.0) {
+        // Beyond a right angle from the supplement, whose sine is `factor` times the component.
+        let factor_square = (across.first_value - across.second_value) * (cone.depth + across.second_value)
+            / max(cone.depth * across.first_value, LTC_TINY);
+        let lesser = sine * abs(normal.y);
+        let angle = max(LTC_PI * inverseSqrt(max(factor_square, LTC_TINY)) - lesser * (1.0 + second_excess), 0.0);
+        second = (rest + sine) * normal.y - select(angle, -angle, normal.y < 0.0);
+    }
+
+    let axis_k = min(k + ratio * cone.depth, 2.0);
+    let lesser = min(sine * abs(normal.z), cone.whole);
+    let acute = lesser + lesser * ltc_angle_excess(min(axis_k, 2.0 - axis_k));
+    let part = select(acute, LTC_PI * cone.whole - acute, axis_k > 1.0);
+    return vec3<f32>(first * normal.x, second, select(part, 2.0 * LTC_PI * cone.whole - part, large));
+}
+
+/// Vector form factor, times 2 pi, of the part of a cone on the side of a plane that counts; in w its component along
+/// the plane's normal, which has more digits for a distant light.
+fn ltc_cone_part(cone: LtcCone, across: LtcAcross, cut: LtcCut) -> vec4<f32> {
+    let middle = ltc_cone_point(cone, cut.toward * cut.offset);
+    let along = (cone.half_x * cut.toward.y - cone.half_y * cut.toward.x) * cut.reach;
+    let start_point = middle + along;
+    let end_point = middle - along;
+    let start_inverse = inverseSqrt(max(dot(start_point, start_point), LTC_TINY));
+    let end_inverse = inverseSqrt(max(dot(end_point, end_point), LTC_TINY));
+    let both = start_inverse * end_inverse;
+    let start = start_point * start_inverse;
+    let end = end_point * end_inverse;
+    let sine = min(2.0 * cut.reach * cut.moment * (cone.scale * cone.scale) * both, 1.0);
+    let side = start - end;
+    // The ends of a short chord differ by rounding alone; their cross product does not.
+    let far_k = 0.5 * dot(side, side);
+    let k = select(sine * sine / max(2.0 - far_k, 1.0), far_k, far_k > 1.0);
+    // The chord's edge and the arc share the cross product of their ends, which is left out of both: of a distant
+    // light it is all that they amount to but for a small part.
+    let excess = sine * ltc_angle_excess(min(k, saturate(2.0 - k)));
+    let rest = select(excess, LTC_PI - 2.0 * sine - excess, k > 1.0);
+    let tilt = ltc_cone_tilt(cone, cut);
+    let plane = ltc_cone_inward(cone, cut.normal);
+    let normal = vec3<f32>(dot(plane, across.first), dot(plane, across.second), tilt);
+    let swept = ltc_cone_sweep(cone, across, normal, sine, k, 2.0 * cut.reach * cut.reach * both, tilt >= 0.0, rest);
+    let sum = vec3<f32>(swept.xy, swept.z + tilt * (rest + sine));
+    let turned = across.first * sum.x + across.second * sum.y + cone.axis * sum.z;
+    return vec4<f32>(ltc_cone_outward(cone, turned), dot(normal, sum));
+}
+
+/// The point of a plane's chord at `s` from its middle, in the circle's plane.
+fn ltc_cut_point(cut: LtcCut, s: f32) -> vec2<f32> {
+    return cut.toward * cut.offset + vec2<f32>(cut.toward.y, -cut.toward.x) * s;
+}
+
+/// The edge integral of the part of a plane's chord between two points of the circle's plane.
+fn ltc_cone_chord(cone: LtcCone, cut: LtcCut, start: vec2<f32>, end: vec2<f32>) -> vec3<f32> {
+    let a = ltc_cone_point(cone, start);
+    let b = ltc_cone_point(cone, end);
+    let a_inverse = inverseSqrt(max(dot(a, a), LTC_TINY));
+    let b_inverse = inverseSqrt(max(dot(b, b), LTC_TINY));
+    let along = end - start;
+    let square = dot(along, along);
+    let sine = square * inverseSqrt(max(square, LTC_TINY)) * cut.moment * (cone.scale * cone.scale) * (a_inverse * b_inverse);
+    return cut.normal * ltc_angle(a * a_inverse, b * b_inverse, sine);
+}
+
+/// The integral along the arc between two points of the circle, counter-clockwise. `nearly_full` tells an arc of all
+/// but the whole circle from one of next to nothing.
+fn ltc_cone_arc(cone: LtcCone, across: LtcAcross, start: vec2<f32>, end: vec2<f32>, nearly_full: bool) -> vec3<f32> {
+    let a = ltc_cone_point(cone, start);
+    let b = ltc_cone_point(cone, end);
+    let a_inverse = inverseSqrt(max(dot(a, a), LTC_TINY));
+    let b_inverse = inverseSqrt(max(dot(b, b), LTC_TINY));
+    let both = a_inverse * b_inverse;
+    let back = start - end;
+    let back_square = dot(back, back);
+    let product = ltc_cone_inward(cone, ltc_edge_normal(b, a, cone.half_x * back.x + cone.half_y * back.y));
+    let product_square = dot(product, product);
+    let product_inverse = inverseSqrt(max(product_square, LTC_TINY));
+    let normal = vec3<f32>(dot(product, across.first), dot(product, across.second), dot(product, cone.axis)) * product_inverse;
+    let sine = min(product_square * product_inverse * both, 1.0);
+    let side = a * a_inverse - b * b_inverse;
+    let large = select(normal.z >= 0.0, nearly_full, back_square < 1e-9);
+    let swept = ltc_cone_sweep(cone, across, normal, sine, 0.5 * dot(side, side), 0.5 * back_square * both, large, -sine);
+    return ltc_cone_outward(cone, across.first * swept.x + across.second * swept.y + cone.axis * swept.z);
+}
+
+/// Vector form factor, times 2 pi, of the part of a cone on the sides of two planes that count, where the chords of
+/// the two cross.
+fn ltc_cone_between(cone: LtcCone, across: LtcAcross, a: LtcCut, b: LtcCut) -> vec3<f32> {
+    // The sine between the directions of rise, and where the chord of `a` meets that of `b`, from the difference of
+    // the two: the planes may all but coincide.
+    let apart = b.toward - a.toward;
+    let sine = a.toward.x * apart.y - a.toward.y * apart.x;
+    let turned = sine > 0.0;
+    let bounded = max(abs(sine), 1e-20);
+    let rest = a.offset - b.offset - a.offset * (0.5 * dot(apart, apart));
+    let meeting = ltc_cut_point(a, clamp(rest / select(-bounded, bounded, turned), -a.reach, a.reach));
+    let a_end = ltc_cut_point(a, select(a.reach, -a.reach, turned));
+    let b_end = ltc_cut_point(b, select(-b.reach, b.reach, turned));
+    let a_chord = ltc_cone_chord(cone, a, select(meeting, a_end, turned), select(a_end, meeting, turned));
+    let b_chord = ltc_cone_chord(cone, b, select(b_end, meeting, turned), select(meeting, b_end, turned));
+    let arc = ltc_cone_arc(cone, across, select(a_end, b_end, turned), select(b_end, a_end, turned), a.offset + b.offset < -1.0);
+    return a_chord + b_chord + arc;
+}
+
+// ---------------------------------------------------------------------------------------------
+// Disks and spheres
+// ---------------------------------------------------------------------------------------------
+
+/// An elliptical disk over a surface: what all lobes share of the work on it.
+struct LtcDisk {
+    /// First semi-axis over `size`; the two run counter-clockwise about the direction away from the surface.
+    half_x: vec3<f32>,
+    /// Factor on the semi-axes.
+    size: f32,
+    /// Second semi-axis over `size`.
+    half_y: vec3<f32>,
+    /// Scalar product of `normal` and `centre`, not negative.
+    volume: f32,
+    /// The centre from the surface point, in units of the farthest coordinate.
+    centre: vec3<f32>,
+    /// Whether the light reaches the surface at all.
+    reaches: bool,
+    /// Cross product of the semi-axes over `size`.
+    normal: vec3<f32>,
+    /// Whether the horizon cuts the disk.
+    clipped: bool,
+    /// The surface's horizon.
+    cut: LtcCut,
+}
+
+/// A sphere over a surface.
+struct LtcSphere {
+    /// A disk that hides the same directions.
+    disk: LtcDisk,
+    /// Whether the surface point is in the sphere.
+    inside: bool,
+}
+
+/// Places an elliptical disk over a surface; see ltc_disk.
+fn ltc_disk_begin(surface: LtcSurface, centre: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, two_sided: bool) -> LtcDisk {
+    let away = centre * LTC_HEADROOM - surface.position * LTC_HEADROOM;
+    let x_far = half_x * LTC_HEADROOM;
+    let y_far = half_y * LTC_HEADROOM;
+    let width = max(ltc_extent(x_far), ltc_extent(y_far));
+    let scale = 1.0 / max(max(ltc_extent(away), width), LTC_TINY);
+    let shrink = 1.0 / max(width, LTC_TINY);
+    let x = x_far * shrink;
+    let y = y_far * shrink;
+    let normal = cross(x, y);
+    var disk: LtcDisk;
+    disk.centre = away * scale;
+    disk.size = width * scale;
+    let volume = dot(normal, disk.centre);
+    let front = volume < 0.0;
+    disk.half_x = select(x, y, front);
+    disk.half_y = select(y, x, front);
+    disk.normal = select(normal, -normal, front);
+    disk.volume = abs(volume);
+    disk.cut = ltc_cut(surface.normal, disk.half_x, disk.half_y, disk.size, disk.centre);
+    disk.clipped = disk.cut.offset > -1.0;
+    disk.reaches = (front | (two_sided & (volume > 0.0))) & (disk.cut.offset < 1.0);
+    return disk;
+}
+
+/// The form factor of a disk, 0 to 1.
+fn ltc_disk_diffuse(disk: LtcDisk) -> f32 {
+    if (!disk.reaches) {
+        return 0.0;
+    }
+    let cone = ltc_cone(disk.half_x, disk.half_y, disk.size, disk.centre, disk.normal, disk.volume);
+    var value = cone.whole * ltc_cone_tilt(cone, disk.cut);
+    if (disk.clipped) {
+        value = ltc_cone_part(cone, ltc_cone_across(cone), disk.cut).w * LTC_OVER_TWO_PI;
+    }
+    return saturate(value);
+}
+
+/// The vector form factor of a disk in a lobe's space, cut at both horizons, towards the light.
+fn ltc_disk_lobe(disk: LtcDisk, lobe: LtcLobe) -> vec3<f32> {
+    if (!disk.reaches) {
+        return vec3<f32>(0.0);
+    }
+    let half_x = ltc_transform(lobe, disk.half_x);
+    let half_y = ltc_transform(lobe, disk.half_y);
+    let centre = ltc_transform(lobe, disk.centre);
+    let own = ltc_cut(vec3<f32>(0.0, 0.0, 1.0), half_x, half_y, disk.size, centre);
+    if (own.offset >= 1.0) {
+        return vec3<f32>(0.0);
+    }
+    // The determinant of the lobe's matrix.
+    let volume = dot(lobe.axis_x, lobe.normal_x);
+    let cone = ltc_cone(half_x, half_y, disk.size, centre, ltc_transform_normal(lobe, disk.normal), volume * disk.volume);
+    let entire = ltc_cone_outward(cone, cone.axis) * cone.whole;
+    let own_clips = own.offset > -1.0;
+    if (!(disk.clipped | own_clips)) {
+        return vec3<f32>(entire.xy, max(entire.z, 0.0));
+    }
+    // The surface's horizon in the lobe's space; heights over it scale as volumes over the normal.
+    let horizon = ltc_transform_normal(lobe, disk.cut.normal);
+    let horizon_square = dot(horizon, horizon);
+    let horizon_inverse = inverseSqrt(max(horizon_square, LTC_TINY));
+    var cut = disk.cut;
+    cut.normal = horizon * horizon_inverse;
+    cut.height = cut.height * (volume * horizon_inverse);
+    cut.steepness = cut.steepness * (volume * horizon_inverse);
+    cut.moment = cut.moment * (horizon_square * horizon_inverse);
+
+    // Two horizons leave arcs of the rim around the directions of rise, of the half-angles f and g, whose cosines are
+    // the offsets. With h between the directions, one arc lies in the other for |f - g| >= h, and they meet at
+    // neither or both of their far ends for |f + g - pi| >= pi - h. In terms of chords, for the planes may all but
+    // coincide.
+    let twice = disk.clipped & own_clips;
+    let apart = own.toward - cut.toward;
+    let along = own.toward + cut.toward;
+    let difference = own.offset - cut.offset;
+    let total = own.offset + cut.offset;
+    let reaches = (own.reach - cut.reach) * (own.reach - cut.reach);
+    let nested = difference * difference + reaches >= dot(apart, apart);
+    let opposite = (total * total + reaches >= dot(along, along)) & !nested;
+    if (twice & opposite & (total >= 0.0)) {
+        return vec3<f32>(0.0);
+    }
+    let across = ltc_cone_across(cone);
+    var sum: vec3<f32>;
+    if (twice & !(nested | opposite)) {
+        sum = ltc_cone_between(cone, across, cut, own);
+    } else {
+        let own_counts = own_clips & (!disk.clipped | (nested & (difference >= 0.0)));
+        if (own_counts) {
+            cut = own;
+        }
+        sum = ltc_cone_part(cone, across, cut).xyz;
+        if (twice & opposite) {
+            // What neither cuts off is what each leaves, together, less the whole.
+            sum += ltc_cone_part(cone, across, own).xyz - entire * (2.0 * LTC_PI);
+        }
+    }
+    sum *= LTC_OVER_TWO_PI;
+    return vec3<f32>(sum.xy, max(sum.z, 0.0));
+}
+
+/// The value (diffuse, specular, fresnel) of an elliptical disk light around `centre` with the semi-axes `half_x` and
+/// `half_y`, any two conjugate half-diameters. It emits to the side of their cross product (to both with `two_sided`).
+///
+/// Error of the form factor against exact arithmetic: at most 1e-6, 2e-6 for a disk that all but touches the surface;
+/// at most 1e-4 of its value for one whose size is 1e-5 to a tenth of its distance. Where the rim itself passes by
+/// closely, 6e-7 times the ratio of the disk's size to that distance takes the place of 1e-6.
+fn ltc_disk(surface: LtcSurface, lobe: LtcLobe, centre: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, two_sided: bool) -> vec3<f32> {
+    let disk = ltc_disk_begin(surface, centre, half_x, half_y, two_sided);
+    if (!disk.reaches) {
+        return vec3<f32>(0.0);
+    }
+    return ltc_value(surface, lobe, ltc_disk_diffuse(disk), ltc_disk_lobe(disk, lobe));
+}
+
+/// Places a sphere over a surface; see ltc_sphere.
+fn ltc_sphere_begin(surface: LtcSurface, centre: vec3<f32>, radius: f32) -> LtcSphere {
+    let away_far = centre * LTC_HEADROOM - surface.position * LTC_HEADROOM;
+    let radius_far = abs(radius) * LTC_HEADROOM;
+    let scale = 1.0 / max(max(ltc_extent(away_far), radius_far), LTC_TINY);
+    let away = away_far * scale;
+    let ball = radius_far * scale;
+    let square = dot(away, away);
+    let inverse_distance = inverseSqrt(max(square, LTC_TINY));
+    let distance = square * inverse_distance;
+    let w = away * inverse_distance;
+    let sine = min(ball * inverse_distance, 1.0);
+    let cosine_square = max(distance - ball, 0.0) * (distance + ball);
+    let cosine = cosine_square * inverseSqrt(max(cosine_square, LTC_TINY)) * inverse_distance;
+    // A basis across the direction, as in ltc_surface.
+    let side = select(-1.0, 1.0, w.z >= 0.0);
+    let p = -1.0 / (side + w.z);
+    let q = w.x * w.y * p;
+    var sphere: LtcSphere;
+    sphere.inside = ball >= distance;
+    var disk: LtcDisk;
+    disk.half_x = vec3<f32>(1.0 + side * w.x * w.x * p, side * q, -side * w.x);
+    disk.half_y = vec3<f32>(q, side + w.y * w.y * p, -w.y);
+    disk.size = sine;
+    disk.centre = w * cosine;
+    disk.normal = w;
+    disk.volume = cosine;
+    disk.cut = ltc_cut(surface.normal, disk.half_x, disk.half_y, sine, disk.centre);
+    disk.clipped = disk.cut.offset > -1.0;
+    disk.reaches = sphere.inside | ((disk.cut.offset < 1.0) & (cosine > 0.0));
+    sphere.disk = disk;
+    return sphere;
+}
+
+/// The form factor of a sphere, 0 to 1: ltc_cone_part for a circular cone, whose centre has the height `tilt` over the
+/// horizon (the integral of Snyder 1996, "Area Light Sources for Real-Time Graphics", without its differences of
+/// nearly equal angles).
+fn ltc_sphere_diffuse(sphere: LtcSphere) -> f32 {
+    let disk = sphere.disk;
+    let tilt = dot(disk.cut.normal, disk.normal);
+    let whole = disk.size * disk.size;
+    var value = whole * tilt;
+    if (disk.clipped) {
+        // The angle between the ends of the chord, seen from the surface point, and that around the sphere's direction.
+        let half_chord = disk.size * disk.cut.reach;
+        let k = 2.0 * half_chord * half_chord;
+        let under = max(1.0 - half_chord * half_chord, 0.0);
+        let sine = 2.0 * half_chord * (under * inverseSqrt(max(under, LTC_TINY)));
+        let excess = sine * ltc_angle_excess(min(k, 2.0 - k));
+        let rest = select(excess, LTC_PI - 2.0 * sine - excess, k > 1.0);
+        let around_k = 2.0 * disk.cut.reach * disk.cut.reach;
+        let lesser = 2.0 * disk.cut.reach * abs(disk.cut.offset);
+        let acute = lesser + lesser * ltc_angle_excess(max(min(around_k, 2.0 - around_k), 0.0));
+        let part = select(acute, LTC_PI - acute, around_k > 1.0);
+        let angle = select(2.0 * LTC_PI - part, part, tilt < 0.0);
+        value = (rest + tilt * (sine * tilt + whole * angle)) * LTC_OVER_TWO_PI;
+    }
+    return select(select(0.0, saturate(value), disk.reaches), 1.0, sphere.inside);
+}
+
+/// The vector form factor of a sphere in a lobe's space, cut at both horizons, towards the light. A sphere around
+/// the surface point covers the whole lobe, evenly.
+fn ltc_sphere_lobe(sphere: LtcSphere, lobe: LtcLobe) -> vec3<f32> {
+    if (sphere.inside) {
+        return vec3<f32>(0.0, 0.0, lobe.share);
+    }
+    return ltc_disk_lobe(sphere.disk, lobe);
+}
+
+/// The value (diffuse, specular, fresnel) of a sphere light, which emits outwards, and inwards to a surface point
+/// that it contains.
+///
+/// Error of the form factor against exact arithmetic: at most 1e-6, and 1e-4 of its value for a sphere whose radius is
+/// less than a twentieth of its distance. At the distance g, in radii, from the sphere 1e-7 / sqrt(g) takes the place
+/// of 1e-6: so much does the rounding of that distance move the sphere's outline.
+fn ltc_sphere(surface: LtcSurface, lobe: LtcLobe, centre: vec3<f32>, radius: f32) -> vec3<f32> {
+    let sphere = ltc_sphere_begin(surface, centre, radius);
+    if (!sphere.disk.reaches) {
+        return vec3<f32>(0.0);
+    }
+    return ltc_value(surface, lobe, ltc_sphere_diffuse(sphere), ltc_sphere_lobe(sphere, lobe));
+}

@@ -1,17 +1,30 @@
-//! The minimax polynomial behind the include's edge integral.
+//! The minimax polynomials behind the include's integrals along edges and arcs.
 
-use crate::shade::angle_excess;
+use crate::shade::{angle_excess, hyperbolic_excess};
 
 /// Coefficients q₀…q_degree, and the largest relative error of 1 + k·Σ qᵢkⁱ against θ / sin θ on
 /// 0 ≤ k ≤ 1, by Remez's exchange algorithm.
 ///
 /// The include's `ltc_angle_excess` holds the coefficients for degree 7, rounded to f32.
 pub fn fit_angle_excess(degree: usize) -> (Vec<f64>, f64) {
+    fit_excess(degree, angle_excess)
+}
+
+/// The same for η / sinh η as a function of k = cosh η − 1.
+///
+/// The include's `ltc_hyperbolic_excess` holds the coefficients for degree 5, rounded to f32.
+pub fn fit_hyperbolic_excess(degree: usize) -> (Vec<f64>, f64) {
+    fit_excess(degree, hyperbolic_excess)
+}
+
+/// Coefficients of the polynomial q(k) for which 1 + k·q(k) is closest to 1 + `excess`(k) on 0 ≤ k ≤ 1,
+/// and the largest relative error.
+fn fit_excess(degree: usize, excess: fn(f64) -> f64) -> (Vec<f64>, f64) {
     let unknowns = degree + 2;
-    let weight = |k: f64| k / (1.0 + angle_excess(k));
+    let weight = |k: f64| k / (1.0 + excess(k));
     let error = |coefficients: &[f64], k: f64| {
         let fitted = coefficients.iter().rev().fold(0.0, |sum, q| sum * k + q);
-        weight(k) * (fitted - angle_excess(k) / k)
+        weight(k) * (fitted - excess(k) / k)
     };
     let grid: Vec<f64> =
         (1..=20_000).map(|i| 0.5 - 0.5 * (core::f64::consts::PI * f64::from(i) / 20_000.0).cos()).collect();
@@ -26,7 +39,7 @@ pub fn fit_angle_excess(degree: usize) -> (Vec<f64>, f64) {
         let rows = points.iter().enumerate().map(|(i, &k)| {
             let mut row: Vec<f64> = (0..=degree).map(|power| k.powi(power as i32)).collect();
             row.push(if i % 2 == 0 { 1.0 } else { -1.0 } / weight(k));
-            row.push(angle_excess(k) / k);
+            row.push(excess(k) / k);
             row
         });
         coefficients = eliminate(rows.collect());

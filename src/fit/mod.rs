@@ -10,7 +10,7 @@ mod single;
 mod texture;
 mod whole;
 
-pub use angle::fit_angle_excess;
+pub use angle::{fit_angle_excess, fit_hyperbolic_excess};
 pub use layout::Layout;
 pub use single::{Horizon, Loss};
 pub use texture::{Sight, fit_lookup, lookup_loss};

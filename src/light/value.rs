@@ -4,8 +4,8 @@ use glam::DVec3;
 
 use super::{Light, is_convex_quad};
 use crate::shade::{
-    LtcLobe, LtcSurface, Real, Vector, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end, ltc_quad,
-    ltc_tube,
+    LtcLobe, LtcSurface, Real, Vector, ltc_disk, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end,
+    ltc_quad, ltc_sphere, ltc_tube,
 };
 
 /// The value (diffuse, specular, fresnel) of a polygon light, by `ltc_quad` for a `convex_quad` and by the
@@ -47,6 +47,9 @@ pub fn light_value<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, light: &
         Light::Tube { start, end, radius, caps } => {
             ltc_tube(surface, lobe, v(*start), v(*end), R::new(*radius), *caps)
         }
-        _ => unimplemented!(),
+        Light::Disk { center, half_x, half_y, two_sided } => {
+            ltc_disk(surface, lobe, v(*center), v(*half_x), v(*half_y), *two_sided)
+        }
+        Light::Sphere { center, radius } => ltc_sphere(surface, lobe, v(*center), R::new(*radius)),
     }
 }

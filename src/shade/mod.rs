@@ -18,6 +18,8 @@
 //! assert!((value.x - 0.2395).abs() < 1e-4); // the form factor
 //! ```
 
+mod cone;
+mod disk;
 mod layers;
 mod polygon;
 mod quad;
@@ -26,6 +28,15 @@ mod surface;
 mod texture;
 mod tube;
 
+pub use cone::{
+    LtcAcross, LtcCone, LtcCut, Together, ltc_cone, ltc_cone_across, ltc_cone_between, ltc_cone_inward,
+    ltc_cone_outward, ltc_cone_part, ltc_cone_step, ltc_cone_tilt, ltc_cut, ltc_cut_together, ltc_half_turn,
+    ltc_hyperbolic_deficit,
+};
+pub use disk::{
+    LtcDisk, LtcSphere, ltc_disk, ltc_disk_begin, ltc_disk_diffuse, ltc_disk_lobe, ltc_sphere,
+    ltc_sphere_begin, ltc_sphere_diffuse, ltc_sphere_lobe,
+};
 pub use layers::{
     LTC_ALBEDO_FLOOR, LTC_SHEEN_ROUGHNESS_FLOOR, ltc_coat_over, ltc_coat_transmission, ltc_diffuse_lobe,
     ltc_energy_compensation, ltc_rough_diffuse, ltc_sheen_lobe, ltc_sheen_over, ltc_surface_with_roughness,
@@ -41,7 +52,7 @@ pub use quad::{
     ltc_offset, ltc_pentagon, ltc_quad, ltc_quad_begin, ltc_quad_diffuse, ltc_quad_form_factor,
     ltc_quad_lobe,
 };
-pub use real::{Real, Vector, angle_excess};
+pub use real::{Real, Vector, angle_excess, hyperbolic_excess};
 pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
     ltc_planar_lobe, ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular, ltc_surface,

@@ -45,6 +45,11 @@ pub trait Real:
     /// θ / sin θ − 1 for k = 1 − cos θ in 0…1: the include's polynomial in f32, the function itself
     /// in f64.
     fn angle_excess(k: Self) -> Self;
+    /// η / sinh η − 1 for k = cosh η − 1 ≥ 0: as the include computes it in f32, the function itself
+    /// in f64.
+    fn hyperbolic_excess(k: Self) -> Self;
+    /// Steps of an iteration that needs `single` of them for the accuracy of f32.
+    fn steps(single: usize) -> usize;
 
     /// This value, no less than `low` and no more than `high`.
     fn clamp(self, low: Self, high: Self) -> Self {
@@ -82,7 +87,7 @@ pub trait Vector<R>:
 }
 
 macro_rules! real {
-    ($real:ty, $vec2:ty, $vec3:ty, $vec4:ty, $k:ident => $excess:expr) => {
+    ($real:ty, $vec2:ty, $vec3:ty, $vec4:ty, $extra:expr, $k:ident => $excess:expr, $hyperbolic:expr) => {
         impl Real for $real {
             type Vec2 = $vec2;
             type Vec3 = $vec3;
@@ -112,6 +117,12 @@ macro_rules! real {
             fn angle_excess($k: Self) -> Self {
                 $excess
             }
+            fn hyperbolic_excess($k: Self) -> Self {
+                $hyperbolic
+            }
+            fn steps(single: usize) -> usize {
+                single + $extra
+            }
         }
 
         impl Vector<$real> for $vec3 {
@@ -137,12 +148,21 @@ macro_rules! real {
     };
 }
 
-real!(f32, Vec2, Vec3, Vec4, k => {
+real!(f32, Vec2, Vec3, Vec4, 0, k => {
     let high = ((0.017_143_16 * k - 0.041_149_218) * k + 0.058_181_286) * k - 0.022_927_942;
     let low = ((0.038_004_92 + high * k) * k + 0.054_650_154) * k + 0.133_567_99;
     (low * k + 0.333_325_86) * k
+}, {
+    if k < 1.0 {
+        let high = (0.001_350_465 * k - 0.007_621_603_6) * k + 0.023_172_159;
+        (((high * k - 0.056_460_18) * k + 0.133_233_59) * k - 0.333_328_37) * k
+    } else {
+        let bounded = k.min(1e18);
+        let sine = (bounded * (bounded + 2.0)).sqrt();
+        (bounded + 1.0 + sine).ln() / sine - 1.0
+    }
 });
-real!(f64, DVec2, DVec3, DVec4, k => angle_excess(k));
+real!(f64, DVec2, DVec3, DVec4, 4, k => angle_excess(k), hyperbolic_excess(k));
 
 /// θ / sin θ − 1 as a function of k = 1 − cos θ in 0…1, by the half angle, which keeps its
 /// relative accuracy down to the smallest k.
@@ -153,4 +173,13 @@ pub fn angle_excess(k: f64) -> f64 {
         return k * (1.0 / 3.0 + k * (2.0 / 15.0 + k * (2.0 / 35.0 + k * 8.0 / 315.0)));
     }
     2.0 * (0.5 * k).sqrt().asin() / (k * (2.0 - k)).sqrt() - 1.0
+}
+
+/// η / sinh η − 1 as a function of k = cosh η − 1 ≥ 0: [`angle_excess`] of −k, for the two are one
+/// analytic function.
+pub fn hyperbolic_excess(k: f64) -> f64 {
+    if k < 1e-3 {
+        return -k * (1.0 / 3.0 - k * (2.0 / 15.0 - k * (2.0 / 35.0 - k * 8.0 / 315.0)));
+    }
+    2.0 * (0.5 * k).sqrt().asinh() / (k * (2.0 + k)).sqrt() - 1.0
 }

@@ -11,17 +11,18 @@ use glam::{DVec2, DVec3};
 
 use crate::brdf::Brdf;
 use crate::light::Light;
+use ellipse::{Ellipse, Everything};
 use outline::{Crossing, Outline, elevation, wrap};
 use quadrature::{Goal, Integral, Panel, integrate};
 
+mod ellipse;
 mod outline;
 mod quadrature;
+mod textured;
 mod tube;
 
-pub use tube::tube;
-mod textured;
-
 pub use textured::{texel_shares, textured_polygon};
+pub use tube::tube;
 
 /// A light's result at a surface point for unit radiance, with estimates of its errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -82,7 +83,42 @@ pub fn light(brdf: &dyn Brdf, view: DVec3, light: &Light, tolerance: f64) -> Tru
     match light {
         Light::Polygon { points, two_sided } => polygon(brdf, view, points, *two_sided, tolerance),
         Light::Tube { start, end, radius, caps } => tube(brdf, view, *start, *end, *radius, *caps, tolerance),
-        _ => unimplemented!(),
+        Light::Disk { center, half_x, half_y, two_sided } => {
+            disk(brdf, view, *center, *half_x, *half_y, *two_sided, tolerance)
+        }
+        Light::Sphere { center, radius } => sphere(brdf, view, *center, *radius, tolerance),
+    }
+}
+
+/// Integrates `brdf` over the elliptical disk with the semi-axes `half_x` and `half_y` around `center`, relative to
+/// the surface point in its frame; the axes need not be orthogonal.
+///
+/// The disk emits along `half_x` × `half_y`; a point behind it or in its plane gets exactly zero, the former unless
+/// `two_sided`. For the rest see [`polygon`].
+pub fn disk(
+    brdf: &dyn Brdf,
+    view: DVec3,
+    center: DVec3,
+    half_x: DVec3,
+    half_y: DVec3,
+    two_sided: bool,
+    tolerance: f64,
+) -> Truth {
+    match Ellipse::new(center, half_x, half_y) {
+        Some(ellipse) if two_sided || ellipse.faces_origin() => solid_angle(brdf, view, &ellipse, tolerance),
+        _ => Truth { converged: true, ..Truth::default() },
+    }
+}
+
+/// Integrates `brdf` over the sphere around `center`, relative to the surface point in its frame. From within, the
+/// sphere covers every direction. For the rest see [`polygon`].
+pub fn sphere(brdf: &dyn Brdf, view: DVec3, center: DVec3, radius: f64, tolerance: f64) -> Truth {
+    if center.length() <= radius {
+        return solid_angle(brdf, view, &Everything, tolerance);
+    }
+    match Ellipse::of_sphere(center, radius) {
+        Some(ellipse) => solid_angle(brdf, view, &ellipse, tolerance),
+        None => Truth { converged: true, ..Truth::default() },
     }
 }
 
