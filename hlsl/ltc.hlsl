@@ -187,6 +187,143 @@ struct LtcPolygon {
     LtcOutlineLobe lobe;
 };
 
+// A tube as all lobes share it: relative to the surface point, scaled, and cut at the surface's horizon.
+struct LtcTube {
+    // One end of what is left of the axis, moved to where the rim is seen.
+    float3 start;
+    // Length of what is left.
+    float remaining_length;
+    // Its other end.
+    float3 end;
+    // Distance of the moved axis.
+    float axis_distance;
+    // Direction from `start` to `end`; zero for a tube of no length.
+    float3 axis;
+    // Sine of half the angle under which the tube's width is seen, 0 to 1.
+    float sine;
+    // Normal of the plane through axis and surface point; shorter than 1 where the point is inside the tube.
+    float3 across;
+    // Share of the width that is above the surface's horizon; 0 if all of the axis is below.
+    float share;
+    // Towards the cap at the start, as long as the sine of half the angle under which it is seen.
+    float3 start_cap;
+    // Share of that cap that is seen, 0 to 1.
+    float start_weight;
+    // Towards the cap at the end.
+    float3 end_cap;
+    // Share of that cap that is seen.
+    float end_weight;
+};
+
+// Where to sample the picture of a light.
+struct LtcLookup {
+    // Texture coordinates.
+    float2 place;
+    // What to add to them for one sample of a pair, and to subtract for the other; zero if there is but one.
+    float2 apart;
+    // Level among the mipmaps; from 0 to any number beyond the last one.
+    float level;
+};
+
+// The cone over an ellipse. Vectors "in the frame" have their components along the ellipse's axes; lengths
+// have a unit that makes them about 1.
+struct LtcCone {
+    // First semi-axis.
+    float3 half_x;
+    // Minus the negative eigenvalue.
+    float depth;
+    // Second semi-axis, conjugate to the first.
+    float3 half_y;
+    // Length of the vector form factor of the whole cone.
+    float whole;
+    // The ellipse's centre.
+    float3 centre;
+    // Factor on lengths that leads to the unit.
+    float scale;
+    // First axis of the frame, along the ellipse's longer axis.
+    float3 first;
+    // Square of half the longer axis.
+    float first_square;
+    // Second axis of the frame, along the shorter axis.
+    float3 second;
+    // Square of half the shorter axis.
+    float second_square;
+    // Third axis of the frame, away from the surface point.
+    float3 third;
+    // Reciprocal of the distance at which the cone's axis meets the ellipse's plane.
+    float nearness;
+    // The ellipse's centre in the frame.
+    float3 place;
+    // Where the cone's axis meets the ellipse's plane, in units of the semi-axes given: the first one's.
+    float pierced_x;
+    // The cone's axis in the frame, a unit vector.
+    float3 axis;
+    // The same, the second one's.
+    float pierced_y;
+};
+
+// The other two eigenvectors of a cone, in the frame, unit vectors.
+struct LtcAcross {
+    // That across the wider side.
+    float3 first;
+    // Its eigenvalue.
+    float first_value;
+    // That across the narrower side.
+    float3 second;
+    // Its eigenvalue.
+    float second_value;
+};
+
+// A plane through the surface point, as it cuts an ellipse. In units of the semi-axes given the ellipse is the
+// unit circle, and the plane cuts it along a chord.
+struct LtcCut {
+    // Normal of the plane, a unit vector towards the side that counts.
+    float3 normal;
+    // Height of the circle's centre over the plane.
+    float height;
+    // Direction of rise in the circle's plane.
+    float2 toward;
+    // Rise by one radius.
+    float steepness;
+    // Distance of the chord from the centre along `toward`: at least 1 where nothing counts, at most -1 where
+    // everything does.
+    float offset;
+    // Half the length of the chord.
+    float reach;
+    // Length of the cross product of the chord's middle and a radius along the chord.
+    float moment;
+};
+
+// An elliptical disk over a surface: what all lobes share of the work on it.
+struct LtcDisk {
+    // First semi-axis over `size`; the two run counter-clockwise about the direction away from the surface.
+    float3 half_x;
+    // Factor on the semi-axes.
+    float size;
+    // Second semi-axis over `size`.
+    float3 half_y;
+    // Scalar product of `normal` and `centre`, not negative.
+    float volume;
+    // The centre from the surface point, in units of the farthest coordinate.
+    float3 centre;
+    // Whether the light reaches the surface at all.
+    bool reaches;
+    // Cross product of the semi-axes over `size`.
+    float3 normal;
+    // Whether the horizon cuts the disk.
+    bool clipped;
+    // The surface's horizon.
+    LtcCut cut;
+};
+
+// A sphere over a surface.
+struct LtcSphere {
+    // A disk that hides the same directions.
+    LtcDisk disk;
+    // Whether the surface point is in the sphere.
+    bool inside;
+};
+
 // Pi.
 static const float LTC_PI = 3.1415927;
 
@@ -201,6 +338,38 @@ static const float LTC_TINY = 1e-37;
 
 // Factor on positions that leaves room for their differences, a power of two.
 static const float LTC_HEADROOM = 0.0625;
+
+// Spread of directions around the mean one where no outline limits it, in units of their distance. This and the
+// following are the fit `softbox::fit::fit_lookup`.
+static const float LTC_LOOKUP_SPREAD = 0.497;
+
+// The same for the blur.
+static const float LTC_LOOKUP_BLUR = 0.97;
+
+// Share of the blur's variance that is missing for a direction on the horizon.
+static const float LTC_LOOKUP_TILT = 0.555;
+
+// Share that is missing for a light seen edge-on.
+static const float LTC_LOOKUP_EDGE_ON = 0.7;
+
+// How much further from the middle to look for each unit of variance: blurred images are drawn to it.
+static const float LTC_LOOKUP_PUSH = 3.7;
+
+// The same for each unit of the variance's square, over that.
+static const float LTC_LOOKUP_PUSH_MORE = 3.4;
+
+// Least share of the longer variance in that of each sample of a pair.
+static const float LTC_LOOKUP_PAIR_SHARE = 0.133;
+
+// Distance of the two from their middle over what would restore the variance.
+static const float LTC_LOOKUP_PAIR_REACH = 0.642;
+
+// Sheen roughness below which the sheen no longer changes.
+static const float LTC_SHEEN_ROUGHNESS_FLOOR = 0.1;
+
+// Albedo to which a lobe's own is raised where energy compensation divides by it. No entry of the
+// table for GGX is as small.
+static const float LTC_ALBEDO_FLOOR = 0.125;
 
 // Largest absolute component of `v`.
 float ltc_extent(float3 v)
@@ -264,6 +433,25 @@ float2 ltc_table_coordinates(LtcSurface surface, float table_size)
     return (((float2(surface.roughness, root) * (table_size - 1.0)) + (0.5).xx) / (table_size).xx);
 }
 
+// The lobe whose inverse matrix has the rows (m.x, 0, m.z), (0, 1, 0), (m.y, 0, m.w) in the surface's frame.
+LtcLobe ltc_planar_lobe(LtcSurface surface, float4 m, float albedo, float fresnel)
+{
+    LtcLobe lobe = (LtcLobe)0;
+
+    lobe.axis_x = ((surface.tangent * m.x) + (surface.normal * m.z));
+    lobe.albedo = albedo;
+    lobe.axis_y = surface.bitangent;
+    lobe.fresnel = fresnel;
+    lobe.axis_z = ((surface.tangent * m.y) + (surface.normal * m.w));
+    lobe.share = (0.5 + ((0.5 * m.x) * rsqrt(max(((m.x * m.x) + (m.y * m.y)), LTC_TINY))));
+    lobe.normal_x = ((surface.tangent * m.w) - (surface.normal * m.y));
+    lobe.normal_y = (surface.bitangent * ((m.x * m.w) - (m.y * m.z)));
+    lobe.normal_z = ((surface.normal * m.x) - (surface.tangent * m.z));
+    LtcLobe _e68 = lobe;
+    const LtcLobe ltclobe = _e68;
+    return ltclobe;
+}
+
 // The lobe that two texels of the table describe.
 //
 // `shape` (layer 0) holds the lobe as its deviation (X, Y, Z, W) from the mirror's lobe, in units
@@ -275,23 +463,12 @@ float2 ltc_table_coordinates(LtcSurface surface, float table_size)
 // `amplitude` (layer 1) holds the albedo and its Schlick part in x and y.
 LtcLobe ltc_lobe(LtcSurface surface, float4 shape, float4 amplitude)
 {
-    LtcLobe lobe = (LtcLobe)0;
-
     float c = surface.cos_view;
     float s = surface.sin_view;
     float a = surface.alpha;
     float4 m = float4(((c * c) + (a * shape.x)), ((a * s) * shape.y), (s * (c + (a * shape.z))), (a * shape.w));
-    lobe.axis_x = ((surface.tangent * m.x) + (surface.normal * m.z));
-    lobe.albedo = amplitude.x;
-    lobe.axis_y = surface.bitangent;
-    lobe.fresnel = amplitude.y;
-    lobe.axis_z = ((surface.tangent * m.y) + (surface.normal * m.w));
-    lobe.share = (0.5 + ((0.5 * m.x) * rsqrt(max(((m.x * m.x) + (m.y * m.y)), LTC_TINY))));
-    lobe.normal_x = ((surface.tangent * m.w) - (surface.normal * m.y));
-    lobe.normal_y = (surface.bitangent * ((m.x * m.w) - (m.y * m.z)));
-    lobe.normal_z = ((surface.normal * m.x) - (surface.tangent * m.z));
-    LtcLobe _e86 = lobe;
-    const LtcLobe ltclobe = _e86;
+    const LtcLobe _e22 = ltc_planar_lobe(surface, m, amplitude.x, amplitude.y);
+    const LtcLobe ltclobe = _e22;
     return ltclobe;
 }
 
@@ -716,7 +893,7 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_9, float3 b_7, float3 c_2, f
         v_d = leave;
         v_e = (q_a + ((q_d - q_a) * (h.x / max((h.x - h.w), LTC_TINY))));
     }
-    float3 base = (distant ? p_a : (0.0).xxx);
+    float3 base_2 = (distant ? p_a : (0.0).xxx);
     float3 _e187 = v_a;
     quad.a = _e187;
     float3 _e189 = v_b;
@@ -727,36 +904,36 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_9, float3 b_7, float3 c_2, f
     quad.d = _e193;
     float3 _e195 = v_e;
     quad.e = _e195;
-    quad.base = base;
+    quad.base = base_2;
     float3 _e198 = v_a;
     float3 _e200 = v_b;
     float3 _e202 = v_b;
     float3 _e203 = v_a;
-    const float3 _e205 = ltc_edge_normal((base + _e198), (base + _e200), (_e202 - _e203));
+    const float3 _e205 = ltc_edge_normal((base_2 + _e198), (base_2 + _e200), (_e202 - _e203));
     quad.a_normal = _e205;
     float3 _e207 = v_b;
     float3 _e209 = v_c;
     float3 _e211 = v_c;
     float3 _e212 = v_b;
-    const float3 _e214 = ltc_edge_normal((base + _e207), (base + _e209), (_e211 - _e212));
+    const float3 _e214 = ltc_edge_normal((base_2 + _e207), (base_2 + _e209), (_e211 - _e212));
     quad.b_normal = _e214;
     float3 _e216 = v_c;
     float3 _e218 = v_d;
     float3 _e220 = v_d;
     float3 _e221 = v_c;
-    const float3 _e223 = ltc_edge_normal((base + _e216), (base + _e218), (_e220 - _e221));
+    const float3 _e223 = ltc_edge_normal((base_2 + _e216), (base_2 + _e218), (_e220 - _e221));
     quad.c_normal = _e223;
     float3 _e227 = v_d;
     float3 _e229 = v_e;
     float3 _e231 = v_e;
     float3 _e232 = v_d;
-    const float3 _e234 = ltc_edge_normal((base + _e227), (base + _e229), (_e231 - _e232));
+    const float3 _e234 = ltc_edge_normal((base_2 + _e227), (base_2 + _e229), (_e231 - _e232));
     quad.d_normal = (surface.normal * dot(surface.normal, _e234));
     float3 _e238 = v_e;
     float3 _e240 = v_a;
     float3 _e242 = v_a;
     float3 _e243 = v_e;
-    const float3 _e245 = ltc_edge_normal((base + _e238), (base + _e240), (_e242 - _e243));
+    const float3 _e245 = ltc_edge_normal((base_2 + _e238), (base_2 + _e240), (_e242 - _e243));
     quad.e_normal = _e245;
     LtcQuad _e246 = quad;
     const LtcQuad ltcquad_2 = _e246;
@@ -954,15 +1131,15 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
             float3 horizon_start_offset = (a_up ? crossing_offset : base_offset);
             float3 horizon_end_offset = (a_up ? base_offset : crossing_offset);
             const float3 _e109 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
-            float3 normal_7 = (surface.normal * dot(surface.normal, _e109));
+            float3 normal_11 = (surface.normal * dot(surface.normal, _e109));
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
-            outline.horizon_normal = normal_7;
+            outline.horizon_normal = normal_11;
             float _e122 = outline.diffuse;
-            const float3 _e124 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_7);
+            const float3 _e124 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_11);
             outline.diffuse = (_e122 - dot(surface.normal, _e124));
         } else {
             outline.crossed = true;
@@ -1145,6 +1322,1146 @@ float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lob
     const float3 _e14 = ltc_outline_lobe(_e11, _e13, two_sided);
     const float3 _e15 = ltc_value(surface, lobe_10, _e9, _e14);
     return _e15;
+}
+
+// Square root of a number that is not negative; 0 below 1e-30.
+float ltc_root(float x)
+{
+    return (x * rsqrt(max(x, 1e-30)));
+}
+
+// Share of what reaches from `height` - `rise` to `height` + `rise` that is above 0.
+float ltc_tube_share(float height, float rise)
+{
+    return saturate((0.5 + ((0.5 * height) / max(max(rise, abs(height)), LTC_TINY))));
+}
+
+// The vector form factor of a line of constant width from `a` to `b`, over the sine of half the angle under
+// which that width is seen at its `foot`, the direction of its closest point, at the given distance.
+//
+// With t the angle from the foot, w(t) the direction there and s = sin of half the width, it is
+// s / pi times the integral of 2 cos t w(t). Between two ends that is the sum of their directions, each
+// times the cosine of the other and the sine of the angle between them, and of the foot times that angle
+// less its sine times its cosine: no difference of large terms, so a distant line keeps its digits, and
+// one on the horizon too. A `foot` shorter than 1 is that of an axis nearer than `distance`.
+float3 ltc_tube_line(float3 a, float3 b, float3 foot, float distance_to_line, float length_of_line)
+{
+    float hidden = max((1.0 - dot(foot, foot)), 0.0);
+    float inside = ((hidden * distance_to_line) * distance_to_line);
+    float a_inverse = rsqrt(max((dot(a, a) + inside), LTC_TINY));
+    float b_inverse = rsqrt(max((dot(b, b) + inside), LTC_TINY));
+    float3 a_unit = (a * a_inverse);
+    float3 b_unit = (b * b_inverse);
+    float a_cosine = min((distance_to_line * a_inverse), 1.0);
+    float b_cosine = min((distance_to_line * b_inverse), 1.0);
+    float ends_sine = ((length_of_line * a_inverse) * b_cosine);
+    float3 chord = (b_unit - a_unit);
+    float change = (b_cosine - a_cosine);
+    float ends_k = (0.5 * (dot(chord, chord) + ((hidden * change) * change)));
+    float ends_cosine = (1.0 - ends_k);
+    float agreed = rsqrt(max(((ends_sine * ends_sine) + (ends_cosine * ends_cosine)), LTC_TINY));
+    float sine = (ends_sine * agreed);
+    float k = (ends_k + (((1.0 - (ends_cosine * agreed)) - ends_k) * min(ends_k, 1.0)));
+    const float _e62 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
+    float bulge = ((k > 1.0) ? (LTC_PI - (sine * ((2.0 + _e62) - min(k, 2.0)))) : (sine * (_e62 + k)));
+    return (((((a_unit * b_cosine) + (b_unit * a_cosine)) * sine) + (foot * bulge)) * 0.31830987);
+}
+
+// Towards a cap around `center`, the end of a tube in the direction `outward`, as long as the sine of half
+// the angle under which it is seen; in w the share of it that is seen. `inverse_distance` is 1 over the distance,
+// `reach` the radius or the tube's length if that is less, and `turned` tells how far the tube's end is turned
+// towards the surface point, from -1 to 1.
+float4 ltc_tube_cap_begin(LtcSurface surface, float3 center_, float inverse_distance, float3 outward, float radius, float reach, float turned)
+{
+    float3 toward = (center_ * inverse_distance);
+    float3 aside = (outward - (toward * dot(toward, outward)));
+    float3 middle = (center_ + (aside * ((0.42441317 * reach) * (1.0 - turned))));
+    const float _e20 = ltc_tube_share(dot(surface.normal, middle), radius);
+    const float3 _e27 = ltc_direction((middle + (surface.normal * (radius * (1.0 - _e20)))));
+    return float4((_e27 * min((radius * inverse_distance), 1.0)), ((0.5 + (0.5 * turned)) * _e20));
+}
+
+// The tube of the given `radius` around the line from `start` to `end`, which emits outwards from its lateral
+// surface; with `caps` its ends are rounded by hemispheres that emit too, else they are open and it is
+// dark inside.
+//
+// The axis is cut at the surface's horizon. Where the tube lies along the horizon, part of its width is
+// below: then what is left counts, with the middle that it has. A surface point inside the tube counts
+// as one at the radius's distance from the axis, in the direction in which the axis is, so that light stays continuous.
+LtcTube ltc_tube_begin(LtcSurface surface, float3 start_2, float3 end_2, float radius, bool caps)
+{
+    LtcTube tube = (LtcTube)0;
+
+    float3 origin = (surface.position * LTC_HEADROOM);
+    float3 a_full = ((start_2 * LTC_HEADROOM) - origin);
+    float3 b_full = ((end_2 * LTC_HEADROOM) - origin);
+    float radius_full = (abs(radius) * LTC_HEADROOM);
+    const float _e17 = ltc_extent(a_full);
+    const float _e18 = ltc_extent(b_full);
+    float scale = (1.0 / max(max(max(_e17, _e18), radius_full), LTC_TINY));
+    float3 side = (((end_2 * LTC_HEADROOM) - (start_2 * LTC_HEADROOM)) * scale);
+    float3 p_a = (a_full * scale);
+    float3 p_b = (b_full * scale);
+    float r = (radius_full * scale);
+    const float3 _e34 = ltc_direction(side);
+    float full_length = dot(_e34, side);
+    float a_squared = dot(p_a, p_a);
+    float b_squared = dot(p_b, p_b);
+    float3 moment = cross(((b_squared < a_squared) ? p_b : p_a), _e34);
+    float squared = max(dot(moment, moment), (r * r));
+    float inverse = rsqrt(max(squared, LTC_TINY));
+    bool is_inside = (dot(moment, moment) < (r * r));
+    float sine_4 = (is_inside ? 1.0 : min((r * inverse), 1.0));
+    float3 across_7 = (moment * inverse);
+    float nearer = (caps ? 0.0 : (0.7853982 * sine_4));
+    float3 moved = (cross(_e34, moment) * nearer);
+    float3 upright = (surface.normal - (_e34 * dot(surface.normal, _e34)));
+    float hidden = (is_inside ? max((1.0 - dot(across_7, across_7)), 0.0) : 0.0);
+    float3 slope = ((across_7 * dot(surface.normal, across_7)) + (upright * hidden));
+    const float _e83 = ltc_root(max(dot(surface.normal, slope), 0.0));
+    float rise = (r * _e83);
+    float highest = max(dot(surface.normal, (p_a - moved)), dot(surface.normal, (p_b - moved)));
+    const float _e92 = ltc_tube_share(highest, rise);
+    float3 lift = (slope * ((((1.0 - _e92) * r) * r) / max(rise, LTC_TINY)));
+    float3 q_a = ((p_a - moved) + lift);
+    float3 q_b = ((p_b - moved) + lift);
+    float a_height = dot(surface.normal, q_a);
+    float b_height = dot(surface.normal, q_b);
+    float a_part = saturate((-(a_height) / max((b_height - a_height), LTC_TINY)));
+    float b_part = saturate((-(b_height) / max((a_height - b_height), LTC_TINY)));
+    float3 left = (q_b - q_a);
+    tube.start = (q_a + (left * a_part));
+    tube.remaining_length = (full_length * max(((1.0 - a_part) - b_part), 0.0));
+    tube.end = (q_b - (left * b_part));
+    tube.axis_distance = ((squared * inverse) * (1.0 - nearer));
+    tube.axis = _e34;
+    tube.sine = sine_4;
+    tube.across = across_7;
+    tube.share = ((max(a_height, b_height) > 0.0) ? _e92 : 0.0);
+    tube.start_cap = (0.0).xxx;
+    tube.start_weight = 0.0;
+    tube.end_cap = (0.0).xxx;
+    tube.end_weight = 0.0;
+    if (caps) {
+        float a_inverse = rsqrt(max(max(a_squared, (r * r)), LTC_TINY));
+        float b_inverse = rsqrt(max(max(b_squared, (r * r)), LTC_TINY));
+        float farther = ((max(b_squared, (r * r)) * b_inverse) - (max(a_squared, (r * r)) * a_inverse));
+        float turned = (sine_4 * clamp((farther / max(full_length, LTC_TINY)), -1.0, 1.0));
+        float reach = min(r, full_length);
+        const float4 _e186 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
+        const float4 _e188 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
+        tube.start_cap = _e186.xyz;
+        tube.start_weight = _e186.w;
+        tube.end_cap = _e188.xyz;
+        tube.end_weight = _e188.w;
+    }
+    LtcTube _e197 = tube;
+    const LtcTube ltctube = _e197;
+    return ltctube;
+}
+
+// The form factor of a tube, 0 to 1. Its mean error against the integral over the solid angle is 0.09 times
+// the square of radius over distance of the value, with caps 0.3 times.
+float ltc_tube_diffuse(LtcSurface surface, LtcTube tube)
+{
+    float3 foot = cross(tube.axis, tube.across);
+    const float3 _e9 = ltc_tube_line(tube.start, tube.end, foot, tube.axis_distance, tube.remaining_length);
+    const float _e20 = ltc_root(dot(tube.start_cap, tube.start_cap));
+    float start_cap = ((tube.start_weight * max(dot(surface.normal, tube.start_cap), 0.0)) * _e20);
+    const float _e32 = ltc_root(dot(tube.end_cap, tube.end_cap));
+    float end_cap = ((tube.end_weight * max(dot(surface.normal, tube.end_cap), 0.0)) * _e32);
+    return saturate(((((max(dot(surface.normal, _e9), 0.0) * tube.sine) * tube.share) + start_cap) + end_cap));
+}
+
+// The vector form factor of a tube's cap in the lobe's space: that of a small disk at its middle.
+float3 ltc_tube_cap(LtcLobe lobe, float3 cap, float weight)
+{
+    const float3 _e3 = ltc_transform(lobe, cap);
+    float squared = dot(cap, cap);
+    float inverse = rsqrt(max(dot(_e3, _e3), LTC_TINY));
+    const float _e9 = ltc_root(squared);
+    float narrowed = (_e9 * inverse);
+    const float3 _e11 = ltc_transform_normal(lobe, cap);
+    float area = (((max(dot(_e11, _e3), 0.0) * narrowed) * narrowed) * narrowed);
+    float form_factor = ((weight * area) / max(((1.0 - squared) + area), LTC_TINY));
+    return (_e3 * ((_e3.z > 0.0) ? (form_factor * inverse) : 0.0));
+}
+
+// The vector form factor of a tube in the lobe's space, of its part above both horizons; z is not negative.
+//
+// There a tube has another width, and need be neither thin nor seen square. The two planes of its outline give
+// its width as the chord between their directions across the axis. The line is moved to where the middle
+// between these directions meets the tube's section.
+//
+// Mean error of the coverage against the lobe's integral over the solid angle, for a radius of 0.02 and
+// 0.08 of the distance: 0.006 and 0.09 % at roughness 0.4 to 1, 0.03 and 0.2 % at 0.15 to 0.4; with caps 0.02 and
+// 0.2 %, 0.04 and 0.5 %. A cap is one point: a lobe narrower than a cap misses it or sees it whole, 5 % at 0.05
+// to 0.15 and a radius of 0.02.
+float3 ltc_tube_lobe(LtcSurface surface, LtcLobe lobe, LtcTube tube)
+{
+    float3 value = (float3)0;
+
+    const float3 _e4 = ltc_transform(lobe, tube.axis);
+    const float3 _e6 = ltc_transform_normal(lobe, tube.axis);
+    float volume = max(dot(_e6, _e4), 0.0);
+    float stretch_squared = dot(_e4, _e4);
+    float stretch_inverse = rsqrt(max(stretch_squared, LTC_TINY));
+    float stretch = (stretch_squared * stretch_inverse);
+    const float3 _e16 = ltc_transform_normal(lobe, tube.across);
+    float hidden = ((tube.sine >= 1.0) ? max((1.0 - dot(tube.across, tube.across)), 0.0) : 0.0);
+    float squared = (dot(_e16, _e16) + ((hidden * volume) * stretch));
+    float inverse = rsqrt(max(squared, LTC_TINY));
+    float3 normal = (_e16 * inverse);
+    float3 toward = (cross(_e4, _e16) * (inverse * stretch_inverse));
+    float sine_5 = (tube.sine * tube.share);
+    const float3 _e44 = ltc_transform(lobe, tube.across);
+    float3 side = (_e44 * sine_5);
+    float full_depth = ((squared * inverse) * stretch_inverse);
+    const float _e53 = ltc_root(max((1.0 - (sine_5 * sine_5)), 0.0));
+    float depth = (full_depth * _e53);
+    float width = ((sine_5 * volume) * inverse);
+    float slope = dot(toward, side);
+    float left_depth = (depth - slope);
+    float right_depth = (depth + slope);
+    float left_squared = ((left_depth * left_depth) + (width * width));
+    float right_squared = ((right_depth * right_depth) + (width * width));
+    float left_inverse = rsqrt(max(left_squared, LTC_TINY));
+    float right_inverse = rsqrt(max(right_squared, LTC_TINY));
+    float left_cosine = (left_depth * left_inverse);
+    float right_cosine = (right_depth * right_inverse);
+    float cosines = (left_cosine + right_cosine);
+    float narrow = ((width * left_inverse) * right_inverse);
+    float chord_depth = ((cosines > 1.0) ? (((((4.0 * depth) * slope) * narrow) * narrow) / max(cosines, 1.0)) : (right_cosine - left_cosine));
+    float chord_width = (width * (left_inverse + right_inverse));
+    float chord_squared = ((chord_depth * chord_depth) + (chord_width * chord_width));
+    float chord_inverse = rsqrt(max(chord_squared, 1e-30));
+    float foot_depth = (chord_width * chord_inverse);
+    float foot_width = (-(chord_depth) * chord_inverse);
+    float3 foot = ((toward * foot_depth) + (normal * foot_width));
+    float lengths = ((left_squared * left_inverse) + (right_squared * right_inverse));
+    float shift = (((-4.0 * full_depth) * slope) / max((lengths * lengths), LTC_TINY));
+    float line_distance = (tube.axis_distance * max(((foot_depth * (full_depth + (slope * shift))) + ((foot_width * width) * shift)), 0.0));
+    float3 moved = (side * (tube.axis_distance * shift));
+    const float3 _e127 = ltc_transform(lobe, tube.start);
+    float3 a = (_e127 + moved);
+    const float3 _e130 = ltc_transform(lobe, tube.end);
+    float3 b = (_e130 + moved);
+    float a_part = saturate((-(a.z) / max((b.z - a.z), LTC_TINY)));
+    float b_part = saturate((-(b.z) / max((a.z - b.z), LTC_TINY)));
+    float3 left = (b - a);
+    float line_length = ((tube.remaining_length * stretch) * max(((1.0 - a_part) - b_part), 0.0));
+    const float3 _e163 = ltc_tube_line((a + (left * a_part)), (b - (left * b_part)), foot, line_distance, line_length);
+    value = (_e163 * ((max(a.z, b.z) > 0.0) ? ((0.5 * chord_squared) * chord_inverse) : 0.0));
+    if (((tube.start_weight + tube.end_weight) > 0.0)) {
+        float3 _e181 = value;
+        const float3 _e184 = ltc_tube_cap(lobe, tube.start_cap, tube.start_weight);
+        const float3 _e187 = ltc_tube_cap(lobe, tube.end_cap, tube.end_weight);
+        value = (_e181 + (_e184 + _e187));
+        float3 _e190 = value;
+        float3 _e191 = value;
+        float3 _e192 = value;
+        value = (_e190 * min(rsqrt(max(dot(_e191, _e192), LTC_TINY)), 1.0));
+    }
+    float3 _e200 = value;
+    float _e203 = value.z;
+    return float3(_e200.xy, max(_e203, 0.0));
+}
+
+// The value (diffuse, specular, fresnel) of a tube light of the given `radius` around the line from `start` to
+// `end`, at best an eighth of the distance or less; with `caps` its ends are rounded. See ltc_tube_begin.
+//
+// Error of the form factor against exact arithmetic: at most 4e-7 and 1e-7 times the ratio of the farther end's
+// distance to that of the axis, in units of the angles under which the tube's width and length are seen,
+// each counted as no more than 1: so much do the coordinates' own digits leave open. For a lobe's coverage see
+// ltc_tube_lobe.
+float3 ltc_tube(LtcSurface surface, LtcLobe lobe, float3 start, float3 end, float radius, bool caps)
+{
+    const LtcTube _e6 = ltc_tube_begin(surface, start, end, radius, caps);
+    const float3 _e7 = ltc_tube_lobe(surface, lobe, _e6);
+    const float2 _e14 = ltc_specular(surface, lobe, clamp((_e7.z / lobe.share), 0.0, 1.0), _e7);
+    const float _e15 = ltc_tube_diffuse(surface, _e6);
+    return float3(_e15, _e14);
+}
+
+// Factor that brings the furthest of three corners, scaled by LTC_HEADROOM, to a distance of about 1.
+float ltc_rectangle_scale(LtcSurface surface, float3 a, float3 b, float3 d)
+{
+    float3 origin = (surface.position * LTC_HEADROOM);
+    const float _e10 = ltc_extent(((a * LTC_HEADROOM) - origin));
+    const float _e14 = ltc_extent(((b * LTC_HEADROOM) - origin));
+    const float _e19 = ltc_extent(((d * LTC_HEADROOM) - origin));
+    float extent = max(max(_e10, _e14), _e19);
+    return (1.0 / max(extent, LTC_TINY));
+}
+
+// Variance of the blur that leaves of the second wave across a picture what a spread of the given variance leaves
+// of it: exp(-2 pi^2 blur) = 1 / (1 + 2 pi^2 spread). The same for small ones.
+float ltc_outlined(float spread)
+{
+    float x = (19.739208 * spread);
+    return (((x < 0.001) ? (x - ((0.5 * x) * x)) : (log2((1.0 + x)) * 0.6931472)) * 0.05066059);
+}
+
+// The look-up from the unit vector `toward` the light; the heights (`rise`) of the sides u and v and of `toward`
+// over the cosine's horizon; the cross products v x corner, corner x u and u x v (`normal`); and the product
+// `offset` of the corner and the last one. Whatever these are, place is within 0 to 1, and all is finite.
+//
+// The vector form factor points to the mean of the light's points p, of distance r, weighted by 1 / r^4; the
+// cosine weights them by p.z / r^4. The ratio of the weights is linear over the light, so the cosine's mean lies
+// off by the covariance of the first weights times the slope of p.z, exactly. That covariance is about that of
+// directions spread evenly around the mean one, as far as the light's outline leaves room for it.
+//
+// The blur is that spread too; folded at the picture's edges, it has to grow with the logarithm of the spread
+// to shrink the picture's waves as the cosine does.
+LtcLookup ltc_lookup(float3 toward, float3 rise, float3 normal_u, float3 normal_v, float3 normal, float offset, float2 texels, bool pair)
+{
+    LtcLookup lookup = (LtcLookup)0;
+
+    float facing = dot(toward, normal);
+    float inverse_facing = (((facing < 0.0) ? -1.0 : 1.0) / max(abs(facing), 1e-30));
+    float2 hit = clamp((float2(dot(toward, normal_u), dot(toward, normal_v)) * inverse_facing), (0.0).xx, (1.0).xx);
+    float3 free_u = ((normal_u - (normal * hit.x)) * inverse_facing);
+    float3 free_v = ((normal_v - (normal * hit.y)) * inverse_facing);
+    const float _e35 = ltc_extent(free_u);
+    float3 along_u = (free_u * (10000.0 / max(_e35, 10000.0)));
+    const float _e41 = ltc_extent(free_v);
+    float3 along_v = (free_v * (10000.0 / max(_e41, 10000.0)));
+    float3 moment = float3(dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v));
+    float3 product = cross(along_u, along_v);
+    float area = dot(product, product);
+    float2 within = (hit * ((1.0).xx - hit));
+    float2 room = (((1.3333334 * within) * within) + (1e-6).xx);
+    float spread_area = ((0.24700901 * 0.24700901) * area);
+    float cross_u = ((0.24700901 * moment.x) * room.y);
+    float cross_v = ((0.24700901 * moment.z) * room.x);
+    float share = (1.0 / (((spread_area + cross_u) + cross_v) + (room.x * room.y)));
+    float variance_u = (room.x * ((spread_area + cross_u) * share));
+    float variance_v = (room.y * ((spread_area + cross_v) * share));
+    float covariance = ((room.x * room.y) * ((0.24700901 * moment.y) * share));
+    float2 slope = (rise.xy * (1.0 / max(((offset * inverse_facing) * rise.z), LTC_TINY)));
+    float2 shift = float2(((variance_u * slope.x) + (covariance * slope.y)), ((covariance * slope.x) + (variance_v * slope.y)));
+    float2 middle = clamp((hit + shift), (0.0).xx, (1.0).xx);
+    float cosine = (abs(facing) * rsqrt(max(dot(normal, normal), LTC_TINY)));
+    float lean = ((LTC_LOOKUP_TILT * (1.0 - rise.z)) + (LTC_LOOKUP_EDGE_ON * (1.0 - cosine)));
+    float blur = (0.9409 * max((1.0 - lean), 0.05));
+    float aspect = (texels.x / texels.y);
+    float x_3 = ((blur * moment.x) * aspect);
+    float y = (blur * moment.y);
+    float z = ((blur * moment.z) / aspect);
+    float difference = (0.5 * (x_3 - z));
+    float square = ((difference * difference) + (y * y));
+    float turn = (square * rsqrt(max(square, LTC_TINY)));
+    float longer = ((0.5 * (x_3 + z)) + turn);
+    const float _e170 = ltc_outlined(longer);
+    const float _e176 = ltc_outlined((((blur * blur) * area) / max(longer, LTC_TINY)));
+    float2 sides = float2(_e170, _e176);
+    float sides_product = (sides.x * sides.y);
+    float single = (sides_product * rsqrt(max(sides_product, LTC_TINY)));
+    float variance = (pair ? max(sides.y, (LTC_LOOKUP_PAIR_SHARE * sides.x)) : single);
+    float level = (0.5 * log2(max(((((variance * texels.x) * texels.y) + 0.44444445) * 1.6363636), 1.0)));
+    float2 axis = ((difference < 0.0) ? float2(y, (turn - difference)) : float2((turn + difference), y));
+    float rest = max((pair ? (sides.x - variance) : 0.0), 0.0);
+    float reach = ((LTC_LOOKUP_PAIR_REACH * (rest * rsqrt(max(rest, LTC_TINY)))) * rsqrt(max(dot(axis, axis), LTC_TINY)));
+    float stretch = (aspect * rsqrt(max(aspect, LTC_TINY)));
+    float push = (1.0 + ((LTC_LOOKUP_PUSH + (12.580001 * variance)) * variance));
+    lookup.place = clamp(((0.5).xx + ((middle - (0.5).xx) * push)), (0.0).xx, (1.0).xx);
+    lookup.apart = (reach * float2((axis.x / stretch), (axis.y * stretch)));
+    lookup.level = level;
+    LtcLookup _e261 = lookup;
+    const LtcLookup ltclookup = _e261;
+    return ltclookup;
+}
+
+// The look-up for a lobe on the rectangle of the corners `a`, `b` and `d`; `toward` is the vector form factor
+// in the lobe's space. See above for the other parameters.
+LtcLookup ltc_rectangle_lookup(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 d, float3 toward, float2 texels, bool pair)
+{
+    const float _e8 = ltc_rectangle_scale(surface, a, b, d);
+    float3 corner = (((d * LTC_HEADROOM) - (surface.position * LTC_HEADROOM)) * _e8);
+    float3 edge_u = (((b * LTC_HEADROOM) - (a * LTC_HEADROOM)) * _e8);
+    float3 edge_v = (((a * LTC_HEADROOM) - (d * LTC_HEADROOM)) * _e8);
+    const float3 _e28 = ltc_direction(toward);
+    float3 rise = float3(dot(lobe.axis_z, edge_u), dot(lobe.axis_z, edge_v), _e28.z);
+    const float3 _e36 = ltc_transform_normal(lobe, cross(edge_u, edge_v));
+    const float3 _e38 = ltc_transform_normal(lobe, cross(edge_v, corner));
+    const float3 _e40 = ltc_transform_normal(lobe, cross(corner, edge_u));
+    const float3 _e41 = ltc_transform(lobe, corner);
+    const LtcLookup _e43 = ltc_lookup(_e28, rise, _e38, _e40, _e36, dot(_e41, _e36), texels, pair);
+    const LtcLookup ltclookup = _e43;
+    return ltclookup;
+}
+
+// The look-up for diffuse light; `toward` is the vector form factor in the caller's space.
+LtcLookup ltc_rectangle_diffuse_lookup(LtcSurface surface, float3 a, float3 b, float3 d, float3 toward, float2 texels, bool pair)
+{
+    const float _e7 = ltc_rectangle_scale(surface, a, b, d);
+    float3 corner = (((d * LTC_HEADROOM) - (surface.position * LTC_HEADROOM)) * _e7);
+    float3 edge_u = (((b * LTC_HEADROOM) - (a * LTC_HEADROOM)) * _e7);
+    float3 edge_v = (((a * LTC_HEADROOM) - (d * LTC_HEADROOM)) * _e7);
+    const float3 _e27 = ltc_direction(toward);
+    float3 rise = float3(dot(surface.normal, edge_u), dot(surface.normal, edge_v), dot(surface.normal, _e27));
+    float3 normal_13 = cross(edge_u, edge_v);
+    const LtcLookup _e39 = ltc_lookup(_e27, rise, cross(edge_v, corner), cross(corner, edge_u), normal_13, dot(corner, normal_13), texels, pair);
+    const LtcLookup ltclookup = _e39;
+    return ltclookup;
+}
+
+// The picture's colour at a look-up with one sample.
+float4 ltc_texture_fetch(Texture2D<float4> picture, SamplerState picture_sampler, LtcLookup lookup)
+{
+    float4 _e5 = picture.SampleLevel(picture_sampler, lookup.place, lookup.level);
+    return _e5;
+}
+
+// The picture's colour at a look-up with a pair of samples.
+float4 ltc_texture_fetch_pair(Texture2D<float4> picture, SamplerState picture_sampler, LtcLookup lookup)
+{
+    float4 first = picture.SampleLevel(picture_sampler, (lookup.place + lookup.apart), lookup.level);
+    float4 second = picture.SampleLevel(picture_sampler, (lookup.place - lookup.apart), lookup.level);
+    return (0.5 * (first + second));
+}
+
+// The same surface point and frame with another roughness, which is clamped as in ltc_surface: that of
+// a sheen, a coat or a diffuse part.
+LtcSurface ltc_surface_with_roughness(LtcSurface surface, float roughness_1)
+{
+    LtcSurface other = (LtcSurface)0;
+
+    other = surface;
+    other.roughness = clamp(roughness_1, LTC_ROUGHNESS_FLOOR, 1.0);
+    float _e9 = other.roughness;
+    float _e11 = other.roughness;
+    other.alpha = (_e9 * _e11);
+    LtcSurface _e13 = other;
+    const LtcSurface ltcsurface = _e13;
+    return ltcsurface;
+}
+
+// The lobe of a sheen of colour 1 from its texel (X, Z, W, albedo), with t the angle between normal
+// and view and r the surface's roughness, which is the sheen's:
+//     x = X      z = sin t Z / r
+//     y = 0      w = W / r
+// The model is that of Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF", with Smith's
+// shadowing; the texels are the fit `softbox::fit::bake` with `softbox::fit::Settings::sheen`. Their albedo,
+// and with it the light of a whole room, is right to half precision where the roughness is 0.2 or more. One
+// lobe is a coarse likeness of light that comes back and light that goes on along the horizon: on random
+// quads the mean error is 9 per cent of the mean value, 6 to 14 by roughness and view.
+LtcLobe ltc_sheen_lobe(LtcSurface surface, float4 texel)
+{
+    float reach = (1.0 / max(surface.roughness, LTC_SHEEN_ROUGHNESS_FLOOR));
+    const LtcLobe _e18 = ltc_planar_lobe(surface, float4(texel.x, 0.0, ((surface.sin_view * texel.y) * reach), (texel.z * reach)), texel.w, 0.0);
+    const LtcLobe ltclobe = _e18;
+    return ltclobe;
+}
+
+// ltc_sheen_lobe from the given layer of the table's texture array.
+LtcLobe ltc_sheen_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, SamplerState table_sampler, float table_size, int layer)
+{
+    const float2 _e5 = ltc_table_coordinates(surface, table_size);
+    float4 _e7 = table.SampleLevel(table_sampler, float3(_e5, layer), 0.0);
+    const LtcLobe _e8 = ltc_sheen_lobe(surface, _e7);
+    const LtcLobe ltclobe = _e8;
+    return ltclobe;
+}
+
+// Radiance of a surface under a sheen of `sheen_colour` (each channel 0 to 1): `base` is the radiance
+// without it, `value` the light's for the lobe `sheen`. Call it with the sum over all lights, or for
+// each of them. The base is dimmed alike in all channels, so that it keeps its hue.
+float3 ltc_sheen_over(float3 base, LtcLobe sheen, float3 value, float3 sheen_colour)
+{
+    float strongest = max(max(sheen_colour.x, sheen_colour.y), sheen_colour.z);
+    return ((base * max((1.0 - (strongest * sheen.albedo)), 0.0)) + (sheen_colour * value.y));
+}
+
+// The lobe of what a rough diffuse surface of colour 1 reflects at the first bounce, from its texel
+// (Y, Z, W, albedo), with t the angle between normal and view:
+//     x = 1            z = sin t Z
+//     y = sin t Y      w = W
+// The surface's roughness is the diffuse one as the model takes it, not squared. The model is that of
+// Portsmouth, Kutz and Hill 2025, "EON: A practical energy-preserving rough diffuse BRDF"; the texels are
+// the fit `softbox::fit::bake` with `softbox::fit::Settings::diffuse`. On random quads the mean error is
+// 1.4 per cent of the mean value, up to 5 at grazing views.
+LtcLobe ltc_diffuse_lobe(LtcSurface surface, float4 texel)
+{
+    float s = surface.sin_view;
+    const LtcLobe _e12 = ltc_planar_lobe(surface, float4(1.0, (s * texel.x), (s * texel.y), texel.z), texel.w, 0.0);
+    const LtcLobe ltclobe = _e12;
+    return ltclobe;
+}
+
+// ltc_diffuse_lobe from the given layer of the table's texture array.
+LtcLobe ltc_diffuse_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, SamplerState table_sampler, float table_size, int layer)
+{
+    const float2 _e5 = ltc_table_coordinates(surface, table_size);
+    float4 _e7 = table.SampleLevel(table_sampler, float3(_e5, layer), 0.0);
+    const LtcLobe _e8 = ltc_diffuse_lobe(surface, _e7);
+    const LtcLobe ltclobe = _e8;
+    return ltclobe;
+}
+
+// Reflected radiance of a rough diffuse surface of the given colour (each channel 0 to 1), from the
+// value (diffuse, lobe, -) of a light of unit radiance for ltc_diffuse_lobe's lobe. It takes the place
+// of colour times diffuse.
+//
+// What leaves at a later bounce has lost its direction: it is Lambert's form factor, with the albedo
+// that the first bounce leaves over, so a white surface reflects all light. Its colour is the sum of the
+// bounces, m the mean albedo of the first one:
+//     colour^2 m / (1 - colour (1 - m))
+// The model lets later bounces leave less at grazing angles; their mean in place of that keeps the energy
+// for each view, and the mean error for a white surface is 2.1 per cent in place of 1.4.
+float3 ltc_rough_diffuse(LtcSurface surface, LtcLobe lobe, float3 value, float3 colour)
+{
+    float mean_albedo = ((1.0 + (0.07248821 * surface.roughness)) / (1.0 + (0.2877934 * surface.roughness)));
+    float3 series = max(((1.0).xxx - (colour * (1.0 - mean_albedo))), (0.5).xxx);
+    float3 later = (((colour * colour) * mean_albedo) / series);
+    return ((colour * value.y) + (later * ((1.0 - lobe.albedo) * value.x)));
+}
+
+// Share of the light that reaches the base below a clear coat: 1 - weight * (directional albedo of the
+// coat for this view). `coat` is the coat's lobe from ltc_lobe, `reflectance` its F0 (0.04 for the usual
+// index of 1.5), its F90 is 1; `weight` is the share of the surface that it covers, 0 to 1.
+float ltc_coat_transmission(LtcLobe coat, float reflectance, float weight)
+{
+    return clamp((1.0 - (weight * ((reflectance * (coat.albedo - coat.fresnel)) + coat.fresnel))), 0.0, 1.0);
+}
+
+// Radiance of a surface under a clear coat: `base` is the radiance without it, `value` the light's for
+// the lobe `coat`. In light of the same radiance from everywhere a base that reflects all of it does so
+// under its coat, too, whatever that one's weight and roughness.
+float3 ltc_coat_over(float3 base, LtcLobe coat, float3 value, float reflectance, float weight)
+{
+    float gloss = (weight * ((reflectance * (value.y - value.z)) + value.z));
+    const float _e12 = ltc_coat_transmission(coat, reflectance, weight);
+    return ((base * _e12) + (gloss).xxx);
+}
+
+// Factor on the reflected radiance of a rough metal that makes up for the light which a single bounce
+// between its facets loses: 1 + F0 (1 / albedo - 1) (Turquin 2019, "Practical multiple scattering
+// compensation for microfacet models", after Kulla and Conty 2017). A white metal, F0 = 1, then
+// reflects all light; for a dielectric the factor is close to 1.
+float3 ltc_energy_compensation(LtcLobe lobe, float3 normal_reflectance)
+{
+    return ((1.0).xxx + (normal_reflectance * ((1.0 / max(lobe.albedo, LTC_ALBEDO_FLOOR)) - 1.0)));
+}
+
+// 1 - E for an imaginary angle: 1 - w / sinh w from k = cosh w - 1, not negative. The error is below 2e-7.
+// The coefficients are the minimax fit `softbox::fit::fit_hyperbolic_excess` of degree 5; the logarithm's
+// argument is at least 3.7, where WGSL guarantees it to 3 ULP.
+float ltc_hyperbolic_deficit(float k)
+{
+    if ((k < 1.0)) {
+        float high = ((((0.001350465 * k) - 0.0076216036) * k) + 0.023172159);
+        return -((((((((high * k) - 0.05646018) * k) + 0.13323359) * k) - 0.33332837) * k));
+    }
+    float bounded = min(k, 1e18);
+    float square = (bounded * (bounded + 2.0));
+    float inverse_sine = rsqrt(square);
+    return (1.0 - (log(((bounded + 1.0) + (square * inverse_sine))) * inverse_sine));
+}
+
+// Cosine and sine of the angle by which to turn the first of two conjugate semi-axes to the longer axis of their
+// ellipse: half the angle of the vector (`difference`, `product`) of half the difference of their squares and
+// their scalar product.
+float2 ltc_half_turn(float difference, float product)
+{
+    float square = ((difference * difference) + (product * product));
+    float inverse_length = rsqrt(max(square, 1e-30));
+    bool circular = (square < 1e-30);
+    float cosine = (circular ? 1.0 : (abs(difference) * inverse_length));
+    float sine = (circular ? 0.0 : (product * inverse_length));
+    float large_square = (0.5 + (0.5 * cosine));
+    float inverse_large = rsqrt(large_square);
+    float large = (large_square * inverse_large);
+    float small = ((0.5 * sine) * inverse_large);
+    return ((difference >= 0.0) ? float2(large, small) : float2(small, large));
+}
+
+// The plane with the unit vector `normal` as it cuts the ellipse with the semi-axes `half_x` and `half_y` times
+// `size` around `centre`.
+LtcCut ltc_cut(float3 normal_8, float3 half_x, float3 half_y, float size, float3 centre)
+{
+    LtcCut cut = (LtcCut)0;
+
+    float2 slope = float2(dot(normal_8, half_x), dot(normal_8, half_y));
+    float square = dot(slope, slope);
+    float inverse_slope = rsqrt(max(square, LTC_TINY));
+    cut.normal = normal_8;
+    cut.height = dot(normal_8, centre);
+    cut.toward = (slope * inverse_slope);
+    cut.steepness = ((size * square) * inverse_slope);
+    float _e23 = cut.height;
+    float _e26 = cut.steepness;
+    cut.offset = (-(_e23) / max(_e26, LTC_TINY));
+    float _e31 = cut.offset;
+    float bounded = clamp(_e31, -1.0, 1.0);
+    float reach_square = ((1.0 - bounded) * (1.0 + bounded));
+    cut.reach = (reach_square * rsqrt(max(reach_square, LTC_TINY)));
+    float _e47 = cut.toward.x;
+    float _e51 = cut.toward.y;
+    float3 middle = (centre + (((half_x * _e47) + (half_y * _e51)) * (size * bounded)));
+    float _e59 = cut.toward.y;
+    float _e63 = cut.toward.x;
+    float3 along = (((half_x * _e59) - (half_y * _e63)) * size);
+    cut.moment = max(dot(normal_8, cross(middle, along)), 0.0);
+    LtcCut _e72 = cut;
+    const LtcCut ltccut = _e72;
+    return ltccut;
+}
+
+// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
+// of whose roots are real.
+float ltc_cone_step(float x, float quadratic, float linear_, float absolute)
+{
+    float value = (((((x + quadratic) * x) + linear_) * x) + absolute);
+    float slope = ((((3.0 * x) + (2.0 * quadratic)) * x) + linear_);
+    float bend = ((6.0 * x) + (2.0 * quadratic));
+    float under = max((((4.0 * slope) * slope) - ((6.0 * value) * bend)), 0.0);
+    float root = (under * rsqrt(max(under, LTC_TINY)));
+    return (x - ((3.0 * value) / max((slope + root), LTC_TINY)));
+}
+
+// The cone over the ellipse with the semi-axes `half_x` and `half_y` times `size` around `centre`. `normal` is the
+// cross product of the two, `volume` its scalar product with the centre, which must not be negative.
+LtcCone ltc_cone(float3 half_x_1, float3 half_y_1, float size, float3 centre_1, float3 normal, float volume)
+{
+    LtcCone cone = (LtcCone)0;
+    float depth = (float)0;
+
+    const float2 _e12 = ltc_half_turn((0.5 * (dot(half_x_1, half_x_1) - dot(half_y_1, half_y_1))), dot(half_x_1, half_y_1));
+    float3 longest = ((half_x_1 * _e12.x) + (half_y_1 * _e12.y));
+    float long_square = dot(longest, longest);
+    float long_inverse = rsqrt(max(long_square, LTC_TINY));
+    float normal_square = dot(normal, normal);
+    float normal_inverse = rsqrt(max(normal_square, LTC_TINY));
+    float aspect = min((((normal_square * normal_inverse) * long_inverse) * long_inverse), 1.0);
+    float long_half = ((size * long_square) * long_inverse);
+    cone.scale = rsqrt(max((dot(centre_1, centre_1) + (long_half * long_half)), LTC_TINY));
+    cone.first = (longest * long_inverse);
+    cone.third = (normal * normal_inverse);
+    float3 _e47 = cone.third;
+    float3 _e49 = cone.first;
+    cone.second = cross(_e47, _e49);
+    float _e53 = cone.scale;
+    cone.half_x = (half_x_1 * (size * _e53));
+    float _e58 = cone.scale;
+    cone.half_y = (half_y_1 * (size * _e58));
+    float _e63 = cone.scale;
+    cone.centre = (centre_1 * _e63);
+    float3 _e67 = cone.centre;
+    float3 _e69 = cone.first;
+    float3 _e72 = cone.centre;
+    float3 _e74 = cone.second;
+    float _e78 = cone.scale;
+    cone.place = float3(dot(_e67, _e69), dot(_e72, _e74), ((volume * normal_inverse) * _e78));
+    float _e82 = cone.scale;
+    float a = (long_half * _e82);
+    float b = (a * aspect);
+    float3 _e86 = cone.place;
+    float3 _e88 = cone.place;
+    float3 p = (_e86 * _e88);
+    float2 s = float2((a * a), (b * b));
+    cone.first_square = s.x;
+    cone.second_square = s.y;
+    float aspect_square = (aspect * aspect);
+    float joint = ((p.x * aspect_square) + p.y);
+    float ratio = (joint / max((((p.x * aspect_square) * aspect_square) + p.y), LTC_TINY));
+    float pole = min((s.y * ratio), s.x);
+    float weight = min((joint * ratio), (p.x + p.y));
+    float middle = (0.5 * ((weight + p.z) - pole));
+    float under = ((middle * middle) + (p.z * pole));
+    float root = (under * rsqrt(max(under, LTC_TINY)));
+    float lowest = ((middle > 0.0) ? (middle + root) : ((p.z * pole) / max((root - middle), LTC_TINY)));
+    float highest = ((p.x + p.y) + p.z);
+    float quadratic = ((s.x + s.y) - highest);
+    float linear_1 = ((s.y * ((s.x - p.x) - p.z)) - (s.x * (p.y + p.z)));
+    float absolute = ((-(p.z) * s.x) * s.y);
+    depth = lowest;
+    if ((aspect < 0.9999)) {
+        float _e173 = depth;
+        const float _e174 = ltc_cone_step(_e173, quadratic, linear_1, absolute);
+        depth = min(max(_e174, lowest), highest);
+        float _e177 = depth;
+        const float _e178 = ltc_cone_step(_e177, quadratic, linear_1, absolute);
+        depth = min(max(_e178, lowest), highest);
+        float _e181 = depth;
+        const float _e182 = ltc_cone_step(_e181, quadratic, linear_1, absolute);
+        depth = min(max(_e182, lowest), highest);
+    }
+    float _e186 = depth;
+    cone.depth = max(_e186, LTC_TINY);
+    float _e191 = cone.depth;
+    float inverse_x = (1.0 / max((s.x + _e191), LTC_TINY));
+    float _e199 = cone.depth;
+    float inverse_y = (1.0 / max((s.y + _e199), LTC_TINY));
+    float _e207 = cone.place.x;
+    float _e209 = cone.depth;
+    float _e214 = cone.place.y;
+    float _e216 = cone.depth;
+    float _e221 = cone.place.z;
+    float3 toward = float3(((_e207 * _e209) * inverse_x), ((_e214 * _e216) * inverse_y), _e221);
+    cone.nearness = rsqrt(max(dot(toward, toward), LTC_TINY));
+    float _e230 = cone.nearness;
+    cone.axis = (toward * _e230);
+    float _e234 = cone.depth;
+    float _e238 = cone.depth;
+    float spread = rsqrt(max(((s.x + _e234) * (s.y + _e238)), LTC_TINY));
+    float _e247 = cone.place.z;
+    float _e249 = cone.nearness;
+    cone.whole = min(((_e247 * _e249) * ((a * b) * spread)), 1.0);
+    float _e259 = cone.place.x;
+    float _e265 = cone.place.y;
+    float2 pierced = float2(((-(a) * _e259) * inverse_x), ((-(b) * _e265) * inverse_y));
+    cone.pierced_x = ((pierced.x * _e12.x) - (pierced.y * _e12.y));
+    cone.pierced_y = ((pierced.x * _e12.y) + (pierced.y * _e12.x));
+    LtcCone _e285 = cone;
+    const LtcCone ltccone = _e285;
+    return ltccone;
+}
+
+// `v` in the cone's frame.
+float3 ltc_cone_inward(LtcCone cone, float3 v)
+{
+    return float3(dot(cone.first, v), dot(cone.second, v), dot(cone.third, v));
+}
+
+// `v`, given in the cone's frame, in the space that the cone is in.
+float3 ltc_cone_outward(LtcCone cone, float3 v)
+{
+    return (((cone.first * v.x) + (cone.second * v.y)) + (cone.third * v.z));
+}
+
+// The point of the ellipse's plane at `p`, in units of the semi-axes given.
+float3 ltc_cone_point(LtcCone cone, float2 p)
+{
+    return ((cone.centre + (cone.half_x * p.x)) + (cone.half_y * p.y));
+}
+
+// Cosine between the cone's axis and a plane's normal.
+float ltc_cone_tilt(LtcCone cone, LtcCut cut)
+{
+    float rise = (((cone.pierced_x * cut.toward.x) + (cone.pierced_y * cut.toward.y)) * cut.steepness);
+    float distant = (((cut.height + rise) * cone.scale) * cone.nearness);
+    const float3 _e21 = ltc_cone_inward(cone, cut.normal);
+    return ((cone.first_square < 0.06) ? distant : dot(cone.axis, _e21));
+}
+
+// The axes across a cone. With W = diag(a^2 + m, b^2 + m, m), D + m = W^1/2 (1 - g g^T) W^1/2 for the unit vector
+// g = W^-1/2 c, so the remaining eigenvalues are those of diag(a^2, b^2, 0) restricted to the plane across g: a
+// matrix of two by two whose entries are sums of positive terms.
+LtcAcross ltc_cone_across(LtcCone cone)
+{
+    LtcAcross across = (LtcAcross)0;
+
+    float a_square = cone.first_square;
+    float b_square = cone.second_square;
+    float3 w = float3((a_square + cone.depth), (b_square + cone.depth), cone.depth);
+    float3 inverse_root = float3(rsqrt(max(w.x, LTC_TINY)), rsqrt(max(w.y, LTC_TINY)), rsqrt(w.z));
+    float3 weighted = (cone.place * inverse_root);
+    float3 g = (weighted * rsqrt(max(dot(weighted, weighted), LTC_TINY)));
+    float q = (-1.0 / (1.0 + g.z));
+    float3 u = float3((1.0 + ((g.x * g.x) * q)), ((g.x * g.y) * q), -(g.x));
+    float3 v = float3(((g.x * g.y) * q), (1.0 + ((g.y * g.y) * q)), -(g.y));
+    float u_square = (((a_square * u.x) * u.x) + ((b_square * u.y) * u.y));
+    float v_square = (((a_square * v.x) * v.x) + ((b_square * v.y) * v.y));
+    float product = (((a_square * u.x) * v.x) + ((b_square * u.y) * v.y));
+    float scale = (1.0 / max((u_square + v_square), LTC_TINY));
+    const float2 _e95 = ltc_half_turn(((0.5 * scale) * (u_square - v_square)), (scale * product));
+    float3 wide = ((u * _e95.x) + (v * _e95.y));
+    float3 first_3 = ((wide * w) * inverse_root);
+    across.first = (first_3 * rsqrt(max(dot(first_3, first_3), LTC_TINY)));
+    across.first_value = (((a_square * wide.x) * wide.x) + ((b_square * wide.y) * wide.y));
+    float3 _e123 = across.first;
+    across.second = cross(cone.axis, _e123);
+    float _e127 = across.first_value;
+    float _e137 = across.first_value;
+    across.second_value = min(((a_square * (b_square / max(_e127, LTC_TINY))) * (g.z * g.z)), _e137);
+    LtcAcross _e139 = across;
+    const LtcAcross ltcacross = _e139;
+    return ltcacross;
+}
+
+// The integral along an arc, less a vector along `normal` whose length is the sine below and of which `rest` gives
+// back a part; components along the axes across the cone and its own. The arc's chord spans the plane with the unit
+// vector `normal` (components along the same axes), `sine` is the sine of the angle between its ends, `k` that
+// angle's 1 - cosine, `ratio` the h of the formula above; `large` tells an arc of more than half the cone.
+float3 ltc_cone_sweep(LtcCone cone, LtcAcross across, float3 normal, float sine, float k, float ratio, bool large, float rest)
+{
+    float second = (float)0;
+
+    const float _e13 = ltc_hyperbolic_deficit(max(((ratio * across.first_value) - k), 0.0));
+    float first = (rest + (sine * _e13));
+    float second_k = clamp((k - (ratio * across.second_value)), 0.0, 2.0);
+    const float _e25 = ltc_angle_excess(min(second_k, (2.0 - second_k)));
+    second = ((rest - (sine * _e25)) * normal.y);
+    if ((second_k > 1.0)) {
+        float factor_square = (((across.first_value - across.second_value) * (cone.depth + across.second_value)) / max((cone.depth * across.first_value), LTC_TINY));
+        float lesser = (sine * abs(normal.y));
+        float angle = max(((LTC_PI * rsqrt(max(factor_square, LTC_TINY))) - (lesser * (1.0 + _e25))), 0.0);
+        second = (((rest + sine) * normal.y) - ((normal.y < 0.0) ? -(angle) : angle));
+    }
+    float axis_k = min((k + (ratio * cone.depth)), 2.0);
+    float lesser_1 = min((sine * abs(normal.z)), cone.whole);
+    const float _e82 = ltc_angle_excess(min(axis_k, (2.0 - axis_k)));
+    float acute = (lesser_1 + (lesser_1 * _e82));
+    float part = ((axis_k > 1.0) ? ((LTC_PI * cone.whole) - acute) : acute);
+    float _e94 = second;
+    return float3((first * normal.x), _e94, (large ? ((6.2831855 * cone.whole) - part) : part));
+}
+
+// Vector form factor, times 2 pi, of the part of a cone on the side of a plane that counts; in w its component along
+// the plane's normal, which has more digits for a distant light.
+float4 ltc_cone_part(LtcCone cone, LtcAcross across, LtcCut cut)
+{
+    const float3 _e6 = ltc_cone_point(cone, (cut.toward * cut.offset));
+    float3 along = (((cone.half_x * cut.toward.y) - (cone.half_y * cut.toward.x)) * cut.reach);
+    float3 start_point = (_e6 + along);
+    float3 end_point = (_e6 - along);
+    float start_inverse = rsqrt(max(dot(start_point, start_point), LTC_TINY));
+    float end_inverse = rsqrt(max(dot(end_point, end_point), LTC_TINY));
+    float both = (start_inverse * end_inverse);
+    float3 start = (start_point * start_inverse);
+    float3 end = (end_point * end_inverse);
+    float sine = min(((((2.0 * cut.reach) * cut.moment) * (cone.scale * cone.scale)) * both), 1.0);
+    float3 side = (start - end);
+    float far_k = (0.5 * dot(side, side));
+    float k = ((far_k > 1.0) ? far_k : ((sine * sine) / max((2.0 - far_k), 1.0)));
+    const float _e60 = ltc_angle_excess(min(k, saturate((2.0 - k))));
+    float excess = (sine * _e60);
+    float rest = ((k > 1.0) ? ((LTC_PI - (2.0 * sine)) - excess) : excess);
+    const float _e70 = ltc_cone_tilt(cone, cut);
+    const float3 _e72 = ltc_cone_inward(cone, cut.normal);
+    float3 normal_14 = float3(dot(_e72, across.first), dot(_e72, across.second), _e70);
+    const float3 _e86 = ltc_cone_sweep(cone, across, normal_14, sine, k, (((2.0 * cut.reach) * cut.reach) * both), (_e70 >= 0.0), rest);
+    float3 sum = float3(_e86.xy, (_e86.z + (_e70 * (rest + sine))));
+    float3 turned = (((across.first * sum.x) + (across.second * sum.y)) + (cone.axis * sum.z));
+    const float3 _e104 = ltc_cone_outward(cone, turned);
+    return float4(_e104, dot(normal_14, sum));
+}
+
+// The point of a plane's chord at `s` from its middle, in the circle's plane.
+float2 ltc_cut_point(LtcCut cut, float s)
+{
+    return ((cut.toward * cut.offset) + (float2(cut.toward.y, -(cut.toward.x)) * s));
+}
+
+// The edge integral of the part of a plane's chord between two points of the circle's plane.
+float3 ltc_cone_chord(LtcCone cone, LtcCut cut, float2 start, float2 end)
+{
+    const float3 _e4 = ltc_cone_point(cone, start);
+    const float3 _e5 = ltc_cone_point(cone, end);
+    float a_inverse = rsqrt(max(dot(_e4, _e4), LTC_TINY));
+    float b_inverse = rsqrt(max(dot(_e5, _e5), LTC_TINY));
+    float2 along = (end - start);
+    float square = dot(along, along);
+    float sine = ((((square * rsqrt(max(square, LTC_TINY))) * cut.moment) * (cone.scale * cone.scale)) * (a_inverse * b_inverse));
+    const float _e31 = ltc_angle((_e4 * a_inverse), (_e5 * b_inverse), sine);
+    return (cut.normal * _e31);
+}
+
+// The integral along the arc between two points of the circle, counter-clockwise. `nearly_full` tells an arc of all
+// but the whole circle from one of next to nothing.
+float3 ltc_cone_arc(LtcCone cone, LtcAcross across, float2 start, float2 end, bool nearly_full)
+{
+    const float3 _e5 = ltc_cone_point(cone, start);
+    const float3 _e6 = ltc_cone_point(cone, end);
+    float a_inverse = rsqrt(max(dot(_e5, _e5), LTC_TINY));
+    float b_inverse = rsqrt(max(dot(_e6, _e6), LTC_TINY));
+    float both = (a_inverse * b_inverse);
+    float2 back = (start - end);
+    float back_square = dot(back, back);
+    const float3 _e25 = ltc_edge_normal(_e6, _e5, ((cone.half_x * back.x) + (cone.half_y * back.y)));
+    const float3 _e26 = ltc_cone_inward(cone, _e25);
+    float product_square = dot(_e26, _e26);
+    float product_inverse = rsqrt(max(product_square, LTC_TINY));
+    float3 normal = (float3(dot(_e26, across.first), dot(_e26, across.second), dot(_e26, cone.axis)) * product_inverse);
+    float sine = min(((product_square * product_inverse) * both), 1.0);
+    float3 side = ((_e5 * a_inverse) - (_e6 * b_inverse));
+    bool large = ((back_square < 1e-9) ? nearly_full : (normal.z >= 0.0));
+    const float3 _e59 = ltc_cone_sweep(cone, across, normal, sine, (0.5 * dot(side, side)), ((0.5 * back_square) * both), large, -(sine));
+    const float3 _e71 = ltc_cone_outward(cone, (((across.first * _e59.x) + (across.second * _e59.y)) + (cone.axis * _e59.z)));
+    return _e71;
+}
+
+// Vector form factor, times 2 pi, of the part of a cone on the sides of two planes that count, where the chords of
+// the two cross.
+float3 ltc_cone_between(LtcCone cone, LtcAcross across, LtcCut a, LtcCut b)
+{
+    float2 apart = (b.toward - a.toward);
+    float sine = ((a.toward.x * apart.y) - (a.toward.y * apart.x));
+    bool turned = (sine > 0.0);
+    float bounded = max(abs(sine), 1e-20);
+    float rest = ((a.offset - b.offset) - (a.offset * (0.5 * dot(apart, apart))));
+    const float2 _e37 = ltc_cut_point(a, clamp((rest / (turned ? bounded : -(bounded))), -(a.reach), a.reach));
+    const float2 _e42 = ltc_cut_point(a, (turned ? -(a.reach) : a.reach));
+    const float2 _e47 = ltc_cut_point(b, (turned ? b.reach : -(b.reach)));
+    const float3 _e50 = ltc_cone_chord(cone, a, (turned ? _e42 : _e37), (turned ? _e37 : _e42));
+    const float3 _e53 = ltc_cone_chord(cone, b, (turned ? _e37 : _e47), (turned ? _e47 : _e37));
+    const float3 _e61 = ltc_cone_arc(cone, across, (turned ? _e47 : _e42), (turned ? _e42 : _e47), ((a.offset + b.offset) < -1.0));
+    return ((_e50 + _e53) + _e61);
+}
+
+// Places an elliptical disk over a surface; see ltc_disk.
+LtcDisk ltc_disk_begin(LtcSurface surface, float3 centre_2, float3 half_x_2, float3 half_y_2, bool two_sided)
+{
+    LtcDisk disk = (LtcDisk)0;
+
+    float3 away = ((centre_2 * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
+    float3 x_far = (half_x_2 * LTC_HEADROOM);
+    float3 y_far = (half_y_2 * LTC_HEADROOM);
+    const float _e15 = ltc_extent(x_far);
+    const float _e16 = ltc_extent(y_far);
+    float width = max(_e15, _e16);
+    const float _e18 = ltc_extent(away);
+    float scale = (1.0 / max(max(_e18, width), LTC_TINY));
+    float shrink = (1.0 / max(width, LTC_TINY));
+    float3 x = (x_far * shrink);
+    float3 y = (y_far * shrink);
+    float3 normal_16 = cross(x, y);
+    disk.centre = (away * scale);
+    disk.size = (width * scale);
+    float3 _e37 = disk.centre;
+    float volume_2 = dot(normal_16, _e37);
+    bool front = (volume_2 < 0.0);
+    disk.half_x = (front ? y : x);
+    disk.half_y = (front ? x : y);
+    disk.normal = (front ? -(normal_16) : normal_16);
+    disk.volume = abs(volume_2);
+    float3 _e53 = disk.half_x;
+    float3 _e55 = disk.half_y;
+    float _e57 = disk.size;
+    float3 _e59 = disk.centre;
+    const LtcCut _e60 = ltc_cut(surface.normal, _e53, _e55, _e57, _e59);
+    disk.cut = _e60;
+    float _e64 = disk.cut.offset;
+    disk.clipped = (_e64 > -1.0);
+    float _e74 = disk.cut.offset;
+    disk.reaches = ((front | (two_sided & (volume_2 > 0.0))) & (_e74 < 1.0));
+    LtcDisk _e78 = disk;
+    const LtcDisk ltcdisk = _e78;
+    return ltcdisk;
+}
+
+// The form factor of a disk, 0 to 1.
+float ltc_disk_diffuse(LtcDisk disk)
+{
+    float value = (float)0;
+
+    if (!(disk.reaches)) {
+        return 0.0;
+    }
+    const LtcCone _e10 = ltc_cone(disk.half_x, disk.half_y, disk.size, disk.centre, disk.normal, disk.volume);
+    const float _e13 = ltc_cone_tilt(_e10, disk.cut);
+    value = (_e10.whole * _e13);
+    if (disk.clipped) {
+        const LtcAcross _e17 = ltc_cone_across(_e10);
+        const float4 _e19 = ltc_cone_part(_e10, _e17, disk.cut);
+        value = (_e19.w * LTC_OVER_TWO_PI);
+    }
+    float _e23 = value;
+    return saturate(_e23);
+}
+
+// The vector form factor of a disk in a lobe's space, cut at both horizons, towards the light.
+float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
+{
+    LtcCut cut_5 = (LtcCut)0;
+    float3 sum = (float3)0;
+
+    if (!(disk.reaches)) {
+        return (0.0).xxx;
+    }
+    const float3 _e7 = ltc_transform(lobe, disk.half_x);
+    const float3 _e9 = ltc_transform(lobe, disk.half_y);
+    const float3 _e11 = ltc_transform(lobe, disk.centre);
+    const LtcCut _e17 = ltc_cut(float3(0.0, 0.0, 1.0), _e7, _e9, disk.size, _e11);
+    if ((_e17.offset >= 1.0)) {
+        return (0.0).xxx;
+    }
+    float volume_3 = dot(lobe.axis_x, lobe.normal_x);
+    const float3 _e28 = ltc_transform_normal(lobe, disk.normal);
+    const LtcCone _e31 = ltc_cone(_e7, _e9, disk.size, _e11, _e28, (volume_3 * disk.volume));
+    const float3 _e33 = ltc_cone_outward(_e31, _e31.axis);
+    float3 entire = (_e33 * _e31.whole);
+    bool own_clips = (_e17.offset > -1.0);
+    if (!((disk.clipped | own_clips))) {
+        return float3(entire.xy, max(entire.z, 0.0));
+    }
+    const float3 _e49 = ltc_transform_normal(lobe, disk.cut.normal);
+    float horizon_square = dot(_e49, _e49);
+    float horizon_inverse = rsqrt(max(horizon_square, LTC_TINY));
+    cut_5 = disk.cut;
+    cut_5.normal = (_e49 * horizon_inverse);
+    float _e60 = cut_5.height;
+    cut_5.height = (_e60 * (volume_3 * horizon_inverse));
+    float _e65 = cut_5.steepness;
+    cut_5.steepness = (_e65 * (volume_3 * horizon_inverse));
+    float _e70 = cut_5.moment;
+    cut_5.moment = (_e70 * (horizon_square * horizon_inverse));
+    bool twice = (disk.clipped & own_clips);
+    float2 _e77 = cut_5.toward;
+    float2 apart = (_e17.toward - _e77);
+    float2 _e81 = cut_5.toward;
+    float2 along = (_e17.toward + _e81);
+    float _e85 = cut_5.offset;
+    float difference = (_e17.offset - _e85);
+    float _e89 = cut_5.offset;
+    float total = (_e17.offset + _e89);
+    float _e93 = cut_5.reach;
+    float _e97 = cut_5.reach;
+    float reaches = ((_e17.reach - _e93) * (_e17.reach - _e97));
+    bool nested = (((difference * difference) + reaches) >= dot(apart, apart));
+    bool opposite = ((((total * total) + reaches) >= dot(along, along)) & !(nested));
+    if (((twice & opposite) & (total >= 0.0))) {
+        return (0.0).xxx;
+    }
+    const LtcAcross _e116 = ltc_cone_across(_e31);
+    if ((twice & !((nested | opposite)))) {
+        LtcCut _e121 = cut_5;
+        const float3 _e122 = ltc_cone_between(_e31, _e116, _e121, _e17);
+        sum = _e122;
+    } else {
+        bool own_counts = (own_clips & (!(disk.clipped) | (nested & (difference >= 0.0))));
+        if (own_counts) {
+            cut_5 = _e17;
+        }
+        LtcCut _e130 = cut_5;
+        const float4 _e131 = ltc_cone_part(_e31, _e116, _e130);
+        sum = _e131.xyz;
+        if ((twice & opposite)) {
+            float3 _e134 = sum;
+            const float4 _e135 = ltc_cone_part(_e31, _e116, _e17);
+            sum = (_e134 + (_e135.xyz - (entire * 6.2831855)));
+        }
+    }
+    float3 _e141 = sum;
+    sum = (_e141 * LTC_OVER_TWO_PI);
+    float3 _e144 = sum;
+    float _e147 = sum.z;
+    return float3(_e144.xy, max(_e147, 0.0));
+}
+
+// The value (diffuse, specular, fresnel) of an elliptical disk light around `centre` with the semi-axes `half_x` and
+// `half_y`, any two conjugate half-diameters. It emits to the side of their cross product (to both with `two_sided`).
+//
+// Error of the form factor against exact arithmetic: at most 1e-6, 2e-6 for a disk that all but touches the surface;
+// at most 1e-4 of its value for one whose size is 1e-5 to a tenth of its distance. Where the rim itself passes by
+// closely, 6e-7 times the ratio of the disk's size to that distance takes the place of 1e-6.
+float3 ltc_disk(LtcSurface surface, LtcLobe lobe, float3 centre, float3 half_x, float3 half_y, bool two_sided)
+{
+    const LtcDisk _e6 = ltc_disk_begin(surface, centre, half_x, half_y, two_sided);
+    if (!(_e6.reaches)) {
+        return (0.0).xxx;
+    }
+    const float _e11 = ltc_disk_diffuse(_e6);
+    const float3 _e12 = ltc_disk_lobe(_e6, lobe);
+    const float3 _e13 = ltc_value(surface, lobe, _e11, _e12);
+    return _e13;
+}
+
+// Places a sphere over a surface; see ltc_sphere.
+LtcSphere ltc_sphere_begin(LtcSurface surface, float3 centre_4, float radius)
+{
+    LtcSphere sphere = (LtcSphere)0;
+    LtcDisk disk_3 = (LtcDisk)0;
+
+    float3 away_far = ((centre_4 * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
+    float radius_far = (abs(radius) * LTC_HEADROOM);
+    const float _e12 = ltc_extent(away_far);
+    float scale = (1.0 / max(max(_e12, radius_far), LTC_TINY));
+    float3 away = (away_far * scale);
+    float ball = (radius_far * scale);
+    float square = dot(away, away);
+    float inverse_distance = rsqrt(max(square, LTC_TINY));
+    float distance_ = (square * inverse_distance);
+    float3 w = (away * inverse_distance);
+    float sine = min((ball * inverse_distance), 1.0);
+    float cosine_square = (max((distance_ - ball), 0.0) * (distance_ + ball));
+    float cosine = ((cosine_square * rsqrt(max(cosine_square, LTC_TINY))) * inverse_distance);
+    float side = ((w.z >= 0.0) ? 1.0 : -1.0);
+    float p = (-1.0 / (side + w.z));
+    float q = ((w.x * w.y) * p);
+    sphere.inside = (ball >= distance_);
+    disk_3.half_x = float3((1.0 + (((side * w.x) * w.x) * p)), (side * q), (-(side) * w.x));
+    disk_3.half_y = float3(q, (side + ((w.y * w.y) * p)), -(w.y));
+    disk_3.size = sine;
+    disk_3.centre = (w * cosine);
+    disk_3.normal = w;
+    disk_3.volume = cosine;
+    float3 _e87 = disk_3.half_x;
+    float3 _e89 = disk_3.half_y;
+    float3 _e91 = disk_3.centre;
+    const LtcCut _e92 = ltc_cut(surface.normal, _e87, _e89, sine, _e91);
+    disk_3.cut = _e92;
+    float _e96 = disk_3.cut.offset;
+    disk_3.clipped = (_e96 > -1.0);
+    bool _e101 = sphere.inside;
+    float _e104 = disk_3.cut.offset;
+    disk_3.reaches = (_e101 | ((_e104 < 1.0) & (cosine > 0.0)));
+    LtcDisk _e112 = disk_3;
+    sphere.disk = _e112;
+    LtcSphere _e113 = sphere;
+    const LtcSphere ltcsphere = _e113;
+    return ltcsphere;
+}
+
+// The form factor of a sphere, 0 to 1: ltc_cone_part for a circular cone, whose centre has the height `tilt` over the
+// horizon (the integral of Snyder 1996, "Area Light Sources for Real-Time Graphics", without its differences of
+// nearly equal angles).
+float ltc_sphere_diffuse(LtcSphere sphere)
+{
+    float value = (float)0;
+
+    LtcDisk disk_4 = sphere.disk;
+    float tilt = dot(disk_4.cut.normal, disk_4.normal);
+    float whole = (disk_4.size * disk_4.size);
+    value = (whole * tilt);
+    if (disk_4.clipped) {
+        float half_chord = (disk_4.size * disk_4.cut.reach);
+        float k = ((2.0 * half_chord) * half_chord);
+        float under = max((1.0 - (half_chord * half_chord)), 0.0);
+        float sine = ((2.0 * half_chord) * (under * rsqrt(max(under, LTC_TINY))));
+        const float _e34 = ltc_angle_excess(min(k, (2.0 - k)));
+        float excess = (sine * _e34);
+        float rest = ((k > 1.0) ? ((LTC_PI - (2.0 * sine)) - excess) : excess);
+        float around_k = ((2.0 * disk_4.cut.reach) * disk_4.cut.reach);
+        float lesser = ((2.0 * disk_4.cut.reach) * abs(disk_4.cut.offset));
+        const float _e64 = ltc_angle_excess(max(min(around_k, (2.0 - around_k)), 0.0));
+        float acute = (lesser + (lesser * _e64));
+        float part = ((around_k > 1.0) ? (LTC_PI - acute) : acute);
+        float angle = ((tilt < 0.0) ? part : (6.2831855 - part));
+        value = ((rest + (tilt * ((sine * tilt) + (whole * angle)))) * LTC_OVER_TWO_PI);
+    }
+    float _e84 = value;
+    return (sphere.inside ? 1.0 : (disk_4.reaches ? saturate(_e84) : 0.0));
+}
+
+// The vector form factor of a sphere in a lobe's space, cut at both horizons, towards the light. A sphere around
+// the surface point covers the whole lobe, evenly.
+float3 ltc_sphere_lobe(LtcSphere sphere, LtcLobe lobe)
+{
+    if (sphere.inside) {
+        return float3(0.0, 0.0, lobe.share);
+    }
+    const float3 _e8 = ltc_disk_lobe(sphere.disk, lobe);
+    return _e8;
+}
+
+// The value (diffuse, specular, fresnel) of a sphere light, which emits outwards, and inwards to a surface point
+// that it contains.
+//
+// Error of the form factor against exact arithmetic: at most 1e-6, and 1e-4 of its value for a sphere whose radius is
+// less than a twentieth of its distance. At the distance g, in radii, from the sphere 1e-7 / sqrt(g) takes the place
+// of 1e-6: so much does the rounding of that distance move the sphere's outline.
+float3 ltc_sphere(LtcSurface surface, LtcLobe lobe, float3 centre, float radius)
+{
+    const LtcSphere _e4 = ltc_sphere_begin(surface, centre, radius);
+    if (!(_e4.disk.reaches)) {
+        return (0.0).xxx;
+    }
+    const float _e10 = ltc_sphere_diffuse(_e4);
+    const float3 _e11 = ltc_sphere_lobe(_e4, lobe);
+    const float3 _e12 = ltc_value(surface, lobe, _e10, _e11);
+    return _e12;
 }
 
 #endif // LTC_HLSL_INCLUDED

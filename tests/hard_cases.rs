@@ -5,6 +5,7 @@ mod common;
 use common::Bound;
 use glam::DVec3;
 use softbox::brdf::Lambert;
+use softbox::light::Light;
 use softbox::table::Table;
 use softbox::truth;
 
@@ -29,13 +30,13 @@ fn the_twin_in_double_precision_is_the_integral() {
         }
         let normal = case.normal.as_dvec3().normalize();
         let (tangent, bitangent) = normal.any_orthonormal_pair();
-        let points: Vec<DVec3> = case
-            .vertices
-            .iter()
-            .map(|vertex| vertex.as_dvec3() - case.position.as_dvec3())
-            .map(|v| DVec3::new(v.dot(tangent), v.dot(bitangent), v.dot(normal)))
-            .collect();
-        let integral = truth::polygon(&Lambert, DVec3::Z, &points, case.two_sided, 1e-10).diffuse;
+        let vector = |v: DVec3| DVec3::new(v.dot(tangent), v.dot(bitangent), v.dot(normal));
+        let light = case.light().moved(|point| vector(point - case.position.as_dvec3()), vector);
+        if matches!(light, Light::Tube { .. }) {
+            // A tube is a line whose ends stand for its rims: close to the integral, and bounded in a test of its own.
+            continue;
+        }
+        let integral = truth::light(&Lambert, DVec3::Z, &light, 1e-10).diffuse;
         let twin = common::twin::<f64>(&table, &case)[0];
         // Vertices that rounding has moved out of their plane make the two differ by as much.
         let tolerance = 1e-9 + 2e-6 * integral;

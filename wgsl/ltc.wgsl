@@ -1722,8 +1722,8 @@ fn ltc_cut(normal: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, size: f32, c
 
 /// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
 /// of whose roots are real.
-fn ltc_cone_step(x: f32, quadratic: f32, linear: f32, constant: f32) -> f32 {
-    let value = ((x + quadratic) * x + linear) * x + constant;
+fn ltc_cone_step(x: f32, quadratic: f32, linear: f32, absolute: f32) -> f32 {
+    let value = ((x + quadratic) * x + linear) * x + absolute;
     let slope = (3.0 * x + 2.0 * quadratic) * x + linear;
     let bend = 6.0 * x + 2.0 * quadratic;
     let under = max(4.0 * slope * slope - 6.0 * value * bend, 0.0);
@@ -1774,13 +1774,13 @@ fn ltc_cone(half_x: vec3<f32>, half_y: vec3<f32>, size: f32, centre: vec3<f32>, 
     let highest = p.x + p.y + p.z;
     let quadratic = s.x + s.y - highest;
     let linear = s.y * (s.x - p.x - p.z) - s.x * (p.y + p.z);
-    let constant = -p.z * s.x * s.y;
+    let absolute = -p.z * s.x * s.y;
     var depth = lowest;
     if (aspect < 0.9999) {
         // From there up, three steps reach the root to rounding unless the ellipse is more slender than 1 : 10000.
-        depth = min(max(ltc_cone_step(depth, quadratic, linear, constant), lowest), highest);
-        depth = min(max(ltc_cone_step(depth, quadratic, linear, constant), lowest), highest);
-        depth = min(max(ltc_cone_step(depth, quadratic, linear, constant), lowest), highest);
+        depth = min(max(ltc_cone_step(depth, quadratic, linear, absolute), lowest), highest);
+        depth = min(max(ltc_cone_step(depth, quadratic, linear, absolute), lowest), highest);
+        depth = min(max(ltc_cone_step(depth, quadratic, linear, absolute), lowest), highest);
     }
     cone.depth = max(depth, LTC_TINY);
 

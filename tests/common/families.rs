@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec3};
 
+use softbox::device::EvaluateLight;
+
 use super::{Bound, Case, Random, perpendicular};
 
 /// A quad so close that single precision no longer tells its edge's direction in the lobe's space: there
@@ -222,7 +224,7 @@ impl Builder {
             self.add("standing on a turned surface", &axes, DVec3::ZERO, &corners, Bound::Absolute(1e-6));
             for case in &mut self.cases[before..] {
                 case.family = "standing on a turned surface";
-                case.bound = Bound::Absolute(2e-6 + 2e-10 / gap);
+                case.bound = Bound::Absolute(2e-6 + 4e-10 / gap);
                 case.specular_slack = 1e-8 / gap;
             }
         }
@@ -370,6 +372,66 @@ impl Builder {
         }
     }
 
+    /// Disks, spheres and tubes, each family in turn; the hard cases of these lights have tests of their own.
+    fn round(&mut self, count: usize) {
+        for i in 0..count {
+            let axes = self.axes();
+            let distance = self.random.log(0.3, 5.0);
+            let position = self.random.direction() * self.random.between(0.0, 1.0);
+            let centre = position + self.random.direction() * distance;
+            let size = distance * self.random.log(0.1, 0.8);
+            let (x, y) = (self.random.direction() * size, self.random.direction() * size);
+            let (family, kind, vectors, radius) = match i % 3 {
+                0 => ("disk", EvaluateLight::DISK, vec![centre, x, y], 0.0),
+                1 => ("sphere", EvaluateLight::SPHERE, vec![centre], size),
+                _ => ("tube", EvaluateLight::TUBE, vec![centre - x, centre + x], 0.05 * size),
+            };
+            self.cases.push(Case {
+                family,
+                position: position.as_vec3(),
+                normal: axes[2].as_vec3(),
+                view: view(&mut self.random, &axes),
+                roughness: roughness(&mut self.random),
+                quad: false,
+                kind,
+                radius: radius as f32,
+                vertices: vectors.iter().map(|v| v.as_vec3()).collect(),
+                two_sided: self.random.index(2) == 0,
+                bound: Bound::Absolute(2e-6),
+                form_factor: None,
+                specular_slack: 0.0,
+            });
+        }
+    }
+
+    fn extreme_round(&mut self, count: usize) {
+        for i in 0..count {
+            let mut vector = || Vec3::new(self.random.finite(), self.random.finite(), self.random.finite());
+            let (kind, vectors) = match i % 3 {
+                0 => (EvaluateLight::DISK, vec![vector(), vector(), vector()]),
+                1 => (EvaluateLight::SPHERE, vec![vector()]),
+                _ => (EvaluateLight::TUBE, vec![vector(), vector()]),
+            };
+            let (position, normal, view) = (vector(), vector(), vector());
+            let nonzero = |v: Vec3| if v == Vec3::ZERO { Vec3::Z } else { v };
+            self.cases.push(Case {
+                family: "any finite numbers for a round light",
+                position,
+                normal: nonzero(normal),
+                view: nonzero(view),
+                roughness: self.random.unit() as f32,
+                quad: false,
+                kind,
+                radius: self.random.finite().abs(),
+                vertices: vectors,
+                two_sided: i % 2 == 0,
+                bound: Bound::Physical,
+                form_factor: None,
+                specular_slack: 0.0,
+            });
+        }
+    }
+
     /// Simple polygons, most of them not convex: stars around a centre in a plane.
     fn polygons(&mut self, count: usize) {
         for i in 0..count {
@@ -416,6 +478,8 @@ fn edge_ratio(case: &Case) -> f64 {
 pub fn cases(scale: usize) -> Vec<Case> {
     let mut builder = Builder { random: Random::new(0x50F7_B0C5), cases: Vec::new() };
     builder.ordinary(500 * scale);
+    builder.round(150 * scale);
+    builder.extreme_round(60 * scale);
     builder.distant(100 * scale);
     builder.contact(10 * scale + 2);
     builder.turned_contact(5 * scale + 2);

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 //include
 
 struct Surface { vec3 position; float roughness; vec3 normal; float spare_a; vec3 view; float spare_b; };
-struct Light { uint first; uint count; uint flags; uint spare; };
+struct Light { uint first; uint count; uint flags; uint kind; };
 layout(std430, binding = 0) readonly buffer Surfaces { Surface surfaces[]; };
 layout(std430, binding = 1) readonly buffer Lights { Light lights[]; };
 layout(std430, binding = 2) readonly buffer Vertices { vec4 vertices[]; };
@@ -41,8 +41,15 @@ void main() {
     LtcLobe lobe = ltc_lobe_from_table(surface, table, float(textureSize(table, 0).x));
 #endif
     uint first = light.first;
+    vec4 a = vertices[first];
     vec3 value;
-    if ((light.flags & 2u) != 0u) {
+    if (light.kind == 1u) {
+        value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+    } else if (light.kind == 2u) {
+        value = ltc_sphere(surface, lobe, a.xyz, a.w);
+    } else if (light.kind == 3u) {
+        value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & 4u) != 0u);
+    } else if ((light.flags & 2u) != 0u) {
         value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
     } else {
         LtcPolygon polygon = ltc_polygon_begin(surface, vertices[first].xyz);

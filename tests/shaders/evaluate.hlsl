@@ -4,7 +4,7 @@
 //include
 
 struct Surface { float3 position; float roughness; float3 normal; float spare_a; float3 view; float spare_b; };
-struct Light { uint first; uint count; uint flags; uint spare; };
+struct Light { uint first; uint count; uint flags; uint kind; };
 #ifdef VULKAN_BINDINGS
 #define BINDING(index) [[vk::binding(index, 0)]]
 #else
@@ -34,8 +34,15 @@ void main(uint3 invocation : SV_DispatchThreadID) {
     LtcSurface surface = ltc_surface(at.position, at.normal, at.view, at.roughness);
     LtcLobe lobe = ltc_lobe_from_table(surface, table, table_sampler, width);
     uint first = light.first;
+    float4 a = vertices[first];
     float3 value;
-    if ((light.flags & 2u) != 0u) {
+    if (light.kind == 1u) {
+        value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+    } else if (light.kind == 2u) {
+        value = ltc_sphere(surface, lobe, a.xyz, a.w);
+    } else if (light.kind == 3u) {
+        value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & 4u) != 0u);
+    } else if ((light.flags & 2u) != 0u) {
         value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
     } else {
         LtcPolygon polygon = ltc_polygon_begin(surface, vertices[first].xyz);

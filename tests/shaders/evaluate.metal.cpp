@@ -12,7 +12,7 @@
 #include INCLUDE
 
 struct Surface { float position[3], roughness, normal[3], spare_a, view[3], spare_b; };
-struct Light { uint32_t first, count, flags, spare; };
+struct Light { uint32_t first, count, flags, kind; };
 struct Pair { uint32_t surface, light; };
 
 template <class T> std::vector<T> read(FILE *file, size_t count) {
@@ -41,8 +41,15 @@ int main(int, char **arguments) {
             metal::float3{at.view[0], at.view[1], at.view[2]}, at.roughness);
         const LtcLobe lobe = ltc_lobe_from_table(surface, table, metal::sampler{}, float(size));
         const auto vertex = [&](uint32_t i) { return vertices[light.first + i].xyz; };
+        const float radius = vertices[light.first].w;
         metal::float3 value;
-        if (light.flags & 2) {
+        if (light.kind == 1) {
+            value = ltc_disk(surface, lobe, vertex(0), vertex(1), vertex(2), two_sided);
+        } else if (light.kind == 2) {
+            value = ltc_sphere(surface, lobe, vertex(0), radius);
+        } else if (light.kind == 3) {
+            value = ltc_tube(surface, lobe, vertex(0), vertex(1), radius, light.flags & 4);
+        } else if (light.flags & 2) {
             value = ltc_quad(surface, lobe, vertex(0), vertex(1), vertex(2), vertex(3), two_sided);
         } else {
             LtcPolygon polygon = ltc_polygon_begin(surface, vertex(0));
