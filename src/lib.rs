@@ -67,6 +67,9 @@ pub const TABLE_SHEEN: &[u8] = include_bytes!("../table/ltc_sheen.bin");
 /// of the model of Portsmouth, Kutz and Hill (2025).
 pub const TABLE_DIFFUSE: &[u8] = include_bytes!("../table/ltc_diffuse.bin");
 
+/// Two further layers of that array, for anisotropic GGX: see `ltc_anisotropic_lobe` in the include.
+pub const TABLE_ANISOTROPIC: &[u8] = include_bytes!("../table/ltc_anisotropic.bin");
+
 #[cfg(feature = "shade")]
 pub mod brdf;
 #[cfg(feature = "device")]

@@ -4,9 +4,11 @@
 //! point away from the surface. Fresnel reflectance is left out (F = 1); it enters at shading time
 //! through the table's Schlick part.
 
+mod anisotropic;
 mod charlie;
 mod eon;
 
+pub use anisotropic::AnisotropicGgx;
 pub use charlie::{Charlie, SHEEN_ROUGHNESS_FLOOR, Visibility};
 pub use eon::{Eon, Scattering};
 

@@ -5,12 +5,14 @@
 //! *interpolated* lobes fit, at the texels and at the centres of the cells between them.
 
 mod angle;
+mod anisotropic;
 mod layout;
 mod single;
 mod texture;
 mod whole;
 
 pub use angle::{fit_angle_excess, fit_hyperbolic_excess};
+pub use anisotropic::{FittedAnisotropic, bake_anisotropic};
 pub use layout::Layout;
 pub use single::{Horizon, Loss};
 pub use texture::{Sight, fit_lookup, lookup_loss};

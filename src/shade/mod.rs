@@ -18,6 +18,7 @@
 //! assert!((value.x - 0.2395).abs() < 1e-4); // the form factor
 //! ```
 
+mod anisotropic;
 mod cone;
 mod disk;
 mod layers;
@@ -28,6 +29,13 @@ mod surface;
 mod texture;
 mod tube;
 
+pub use anisotropic::{
+    LTC_ALPHA_FLOOR, LTC_ANISOTROPIC_KNEE, LTC_ANISOTROPIC_SIZE, LtcAnisotropy, ltc_anisotropic_alpha,
+    ltc_anisotropic_coordinates, ltc_anisotropic_lobe, ltc_anisotropic_root, ltc_anisotropic_round,
+    ltc_anisotropic_texels, ltc_anisotropy,
+};
+#[cfg(feature = "bake")]
+pub(crate) use anisotropic::{base as anisotropic_base, stretch as anisotropic_stretch};
 pub use cone::{
     LtcAcross, LtcCone, LtcCut, Together, ltc_cone, ltc_cone_across, ltc_cone_between, ltc_cone_inward,
     ltc_cone_outward, ltc_cone_part, ltc_cone_step, ltc_cone_tilt, ltc_cut, ltc_cut_together, ltc_half_turn,

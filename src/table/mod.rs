@@ -1,10 +1,12 @@
 //! The lookup table: packing, reading and file formats.
 
+mod anisotropic;
 #[cfg(feature = "package")]
 mod container;
 #[cfg(feature = "bake")]
 mod pack;
 
+pub use anisotropic::{AnisotropicTable, stretched_lobe};
 #[cfg(feature = "package")]
 pub use container::{Container, ContainerError};
 #[cfg(feature = "bake")]
@@ -27,12 +29,19 @@ pub enum Layer {
     Sheen,
     /// The lobe of a rough diffuse surface with its albedo.
     Diffuse,
+    /// The first half of the corrections for anisotropic surfaces, see [`AnisotropicTable`].
+    AnisotropicFirst,
+    /// The second half, right behind the first.
+    AnisotropicSecond,
 }
 
 impl Layer {
     /// The layers that every specular surface needs, at the places where the include's
     /// `ltc_lobe_from_table` looks for them.
     pub const BASE: [Self; 2] = [Self::Shape, Self::Amplitude];
+
+    /// The layers that anisotropic surfaces need besides, for tables of 64 × 64 texels.
+    pub const ANISOTROPIC: [Self; 2] = [Self::AnisotropicFirst, Self::AnisotropicSecond];
 }
 
 /// A table of half-precision texels: layers of `size` × `size` texels of four numbers, at first

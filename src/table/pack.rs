@@ -49,7 +49,7 @@ impl Table {
 }
 
 /// The nearest half-precision number that is not subnormal.
-fn normal_half(value: f64) -> f16 {
+pub(super) fn normal_half(value: f64) -> f16 {
     let smallest = f16::MIN_POSITIVE.to_f64();
     if value.abs() >= smallest {
         f16::from_f64(value)

@@ -89,7 +89,7 @@ fn lobe<R: Real>(table: &Table, layer: Layer, surface: &LtcSurface<R>) -> LtcLob
     match layer {
         Layer::Sheen => table.sheen_lobe(surface),
         Layer::Diffuse => table.diffuse_lobe(surface),
-        Layer::Shape | Layer::Amplitude => table.lobe(surface),
+        _ => table.lobe(surface),
     }
 }
 
