@@ -1,4 +1,4 @@
-// Softbox: light from polygons by linearly transformed cosines.
+// Softbox: light from polygons, disks, spheres and tubes by linearly transformed cosines.
 //
 // The idea (Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly
 // Transformed Cosines"): the integral of a clamped cosine over a polygon has a closed form
@@ -20,23 +20,91 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like.
-//   2. ltc_lobe from the two texels, then ltc_quad or the ltc_polygon functions.
-//   3. ltc_lobe_from_table: with the texture array and a sampler.
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobe from the two texels.
+//   2. ltc_lobe_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
+//      ltc_polygon functions: one lobe over a diffuse part.
+//   3. ltc_shading: all lobes of a material; then ltc_shading_quad and so on for each light, and ltc_reflected.
 //
 // ARITHMETIC
 //   All geometry is f32. No input with finite coordinates makes an infinity or a NaN; nothing here
 //   tests for one. Positions are scaled by 1/16 so that the difference of two finite positions is
 //   finite, and by the light's own size so that no product leaves the range of f32.
 //
+// SWITCHES
+//   What a scene never calls for costs nothing: each effect has a switch, and what only serves
+//   effects that are off is dead code. In WGSL a switch is an override, set for each pipeline.
+//
 // HLSL       Written in the subset of HLSL 2018 that shader model 5 compiles. Declares no
 //            register: texture and sampler are parameters.
+//            Define a switch, such as LTC_POLYGON, as 0 before, and what only serves that effect is
+//            not compiled.
 //
 // Translated from wgsl/ltc.wgsl; edit that file, not this one.
 // SPDX-License-Identifier: MIT OR Apache-2.0
 
 #ifndef LTC_HLSL_INCLUDED
 #define LTC_HLSL_INCLUDED
+
+// Convex quads and triangles.
+#ifndef LTC_QUAD
+#define LTC_QUAD 1
+#endif
+// Polygons of any number of vertices, convex or not.
+#ifndef LTC_POLYGON
+#define LTC_POLYGON 1
+#endif
+// Disks and ellipses.
+#ifndef LTC_DISK
+#define LTC_DISK 1
+#endif
+// Spheres.
+#ifndef LTC_SPHERE
+#define LTC_SPHERE 1
+#endif
+// Cylinders, from thin lines on.
+#ifndef LTC_TUBE
+#define LTC_TUBE 1
+#endif
+// Rectangles that show an image.
+#ifndef LTC_TEXTURED
+#define LTC_TEXTURED 1
+#endif
+// Specular reflection of a rough surface.
+#ifndef LTC_GGX
+#define LTC_GGX 1
+#endif
+// A second, clear layer on top.
+#ifndef LTC_CLEARCOAT
+#define LTC_CLEARCOAT 1
+#endif
+// Reflection of fibres at grazing angles.
+#ifndef LTC_SHEEN
+#define LTC_SHEEN 1
+#endif
+// Diffuse reflection of a rough surface.
+#ifndef LTC_ROUGH_DIFFUSE
+#define LTC_ROUGH_DIFFUSE 1
+#endif
+// Light that a rough surface reflects more than once.
+#ifndef LTC_ENERGY_COMPENSATION
+#define LTC_ENERGY_COMPENSATION 1
+#endif
+// Different roughness along two axes.
+#ifndef LTC_ANISOTROPIC
+#define LTC_ANISOTROPIC 1
+#endif
+// Lights that emit from both sides.
+#ifndef LTC_TWO_SIDED
+#define LTC_TWO_SIDED 1
+#endif
+// Tubes with ends that emit.
+#ifndef LTC_CAPS
+#define LTC_CAPS 1
+#endif
+// Quads cut at the horizons by a cheap approximation.
+#ifndef LTC_CHEAP_HORIZON
+#define LTC_CHEAP_HORIZON 0
+#endif
 
 // A surface point with its shading frame: the view direction lies in the half-plane of tangent
 // and normal, tangent x bitangent = normal.
@@ -82,6 +150,7 @@ struct LtcLobe {
     float3 normal_z;
 };
 
+#if LTC_QUAD || LTC_TEXTURED
 // A convex quad light, cut at the surface's horizon: what all lobes share of the work on it.
 struct LtcQuad {
     // First vertex of the pentagon that is left of the quad, from `base`; where the quad is not cut, the last
@@ -119,7 +188,9 @@ struct LtcQuad {
     // That of the fifth and the first.
     float3 e_normal;
 };
+#endif
 
+#if LTC_POLYGON
 // State of a polygon that is given vertex by vertex, and its last edge, cut at the surface's horizon: what
 // all lobes share of the work on it. Read and written by the library alone.
 struct LtcOutline {
@@ -166,7 +237,9 @@ struct LtcOutline {
     // Cross product of the two.
     float3 horizon_normal;
 };
+#endif
 
+#if LTC_POLYGON
 // What one lobe knows of an outline. Read and written by the library alone.
 struct LtcOutlineLobe {
     // First point on the lobe's horizon, in the lobe's space.
@@ -178,7 +251,9 @@ struct LtcOutlineLobe {
     // Vector form factor so far in the lobe's space, times 2 pi and signed.
     float3 sum;
 };
+#endif
 
+#if LTC_POLYGON
 // A polygon's outline and the lobe that it lights.
 struct LtcPolygon {
     // The outline.
@@ -186,7 +261,9 @@ struct LtcPolygon {
     // What the lobe knows of it.
     LtcOutlineLobe lobe;
 };
+#endif
 
+#if LTC_TUBE
 // A tube as all lobes share it: relative to the surface point, scaled, and cut at the surface's horizon.
 struct LtcTube {
     // One end of what is left of the axis, moved to where the rim is seen.
@@ -214,7 +291,9 @@ struct LtcTube {
     // Share of that cap that is seen.
     float end_weight;
 };
+#endif
 
+#if LTC_TEXTURED
 // Where to sample the picture of a light.
 struct LtcLookup {
     // Texture coordinates.
@@ -224,7 +303,9 @@ struct LtcLookup {
     // Level among the mipmaps; from 0 to any number beyond the last one.
     float level;
 };
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The cone over an ellipse. Vectors "in the frame" have their components along the ellipse's axes; lengths
 // have a unit that makes them about 1.
 struct LtcCone {
@@ -261,7 +342,9 @@ struct LtcCone {
     // The same, the second one's.
     float pierced_y;
 };
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The other two eigenvectors of a cone, in the frame, unit vectors.
 struct LtcAcross {
     // That across the wider side.
@@ -273,7 +356,9 @@ struct LtcAcross {
     // Its eigenvalue.
     float second_value;
 };
+#endif
 
+#if LTC_DISK || LTC_SPHERE
 // A plane through the surface point, as it cuts an ellipse. In units of the semi-axes given the ellipse is the
 // unit circle, and the plane cuts it along a chord.
 struct LtcCut {
@@ -293,7 +378,9 @@ struct LtcCut {
     // Length of the cross product of the chord's middle and a radius along the chord.
     float moment;
 };
+#endif
 
+#if LTC_DISK || LTC_SPHERE
 // An elliptical disk over a surface: what all lobes share of the work on it.
 struct LtcDisk {
     // First semi-axis over `size`; the two run counter-clockwise about the direction away from the surface.
@@ -315,7 +402,9 @@ struct LtcDisk {
     // The surface's horizon.
     LtcCut cut;
 };
+#endif
 
+#if LTC_SPHERE
 // A sphere over a surface.
 struct LtcSphere {
     // A disk that hides the same directions.
@@ -323,6 +412,140 @@ struct LtcSphere {
     // Whether the surface point is in the sphere.
     bool inside;
 };
+#endif
+
+#if LTC_ANISOTROPIC
+// The directions along which a surface is roughest and smoothest, turned so that the view has no negative
+// component along either: the BRDF is symmetric under these turns.
+struct LtcAnisotropy {
+    // Direction of the larger alpha.
+    float3 major;
+    // The larger alpha.
+    float alpha_major;
+    // Direction of the smaller alpha.
+    float3 minor;
+    // The smaller alpha.
+    float alpha_minor;
+    // Component of the view along the major direction, 0 to 1.
+    float view_major;
+    // Component of the view along the minor direction, 0 to 1.
+    float view_minor;
+    // Alpha of the isotropic surface whose lobe is stretched.
+    float alpha_round;
+    // 1 where major x minor is the normal, -1 where it is the opposite.
+    float handedness;
+};
+#endif
+
+// What a surface is made of. Members that belong to a switched-off effect are not read.
+struct LtcMaterial {
+    // Reflectance of the diffuse part, 0 to 1.
+    float3 base_colour;
+    // Perceptual roughness of the specular part, 0 to 1.
+    float roughness;
+    // Specular reflectance at normal incidence (F0).
+    float3 normal_reflectance;
+    // Roughness of the diffuse part, from 0 for Lambert's law to 1.
+    float diffuse_roughness;
+    // Specular reflectance at grazing incidence (F90).
+    float3 grazing_reflectance;
+    // Share of the surface that a clear coat covers, 0 to 1.
+    float coat;
+    // Reflectance of the sheen over everything but the coat, 0 to 1.
+    float3 sheen_colour;
+    // Perceptual roughness of the sheen.
+    float sheen_roughness;
+    // Direction along the surface in which highlights are longest; need be neither unit nor quite along it.
+    float3 grain;
+    // Strength of the anisotropy, 0 to 1, see ltc_anisotropic_alpha.
+    float anisotropy;
+    // Perceptual roughness of the coat.
+    float coat_roughness;
+    // Reflectance of the coat at normal incidence.
+    float coat_reflectance;
+};
+
+// Which layers of the table's texture array hold what; constants of the caller. Those of switched-off effects
+// are not read.
+struct LtcLayers {
+    // The layer of the sheen.
+    int sheen;
+    // The layer of rough diffuse parts.
+    int diffuse;
+    // The first of the two layers of anisotropic surfaces.
+    int anisotropic;
+};
+
+// A surface point with all its lobes.
+struct LtcShading {
+    // The point and its frame.
+    LtcSurface surface;
+    // The specular lobe.
+    LtcLobe specular;
+    // The coat's lobe.
+    LtcLobe coat;
+    // The sheen's lobe.
+    LtcLobe sheen;
+    // The lobe of a rough diffuse part.
+    LtcLobe rough;
+};
+
+// What the parts of a surface receive of a light of unit radiance and reflect of it for a colour of 1.
+struct LtcReceived {
+    // The form factor.
+    float diffuse;
+    // The value of the rough diffuse lobe.
+    float rough;
+    // The specular value and Schlick's part of it.
+    float2 specular;
+    // The same of the coat.
+    float2 coat;
+    // The value of the sheen's lobe.
+    float sheen;
+};
+
+#if LTC_POLYGON
+// A polygon that is given vertex by vertex to a whole surface.
+struct LtcShadingPolygon {
+    // Its outline.
+    LtcOutline outline;
+    // What the specular lobe knows of it.
+    LtcOutlineLobe specular;
+    // What the coat's lobe knows of it.
+    LtcOutlineLobe coat;
+    // What the sheen's lobe knows of it.
+    LtcOutlineLobe sheen;
+    // What the rough diffuse lobe knows of it.
+    LtcOutlineLobe rough;
+};
+#endif
+
+// Whether surfaces are specular. Without it only the diffuse value means anything.
+static const bool ltc_use_ggx = bool(LTC_GGX);
+
+// Whether surfaces have a clear coat.
+static const bool ltc_use_clearcoat = bool(LTC_CLEARCOAT);
+
+// Whether surfaces have a sheen.
+static const bool ltc_use_sheen = bool(LTC_SHEEN);
+
+// Whether diffuse parts are rough. Without it they follow Lambert's law.
+static const bool ltc_use_rough_diffuse = bool(LTC_ROUGH_DIFFUSE);
+
+// Whether rough metals get back the light that their facets reflect more than once.
+static const bool ltc_use_energy_compensation = bool(LTC_ENERGY_COMPENSATION);
+
+// Whether the roughness of specular parts depends on the direction.
+static const bool ltc_use_anisotropic = bool(LTC_ANISOTROPIC);
+
+// Whether lights may emit from both sides. Without it `two_sided` counts as false.
+static const bool ltc_use_two_sided = bool(LTC_TWO_SIDED);
+
+// Whether tubes may have caps. Without it `caps` counts as false.
+static const bool ltc_use_caps = bool(LTC_CAPS);
+
+// Whether quads are cut at the horizons by a cheap approximation, see ltc_quad. Off unless it is asked for.
+static const bool ltc_use_cheap_horizon = bool(LTC_CHEAP_HORIZON);
 
 // Pi.
 static const float LTC_PI = 3.1415927;
@@ -339,13 +562,6 @@ static const float LTC_TINY = 1e-37;
 // Factor on positions that leaves room for their differences, a power of two.
 static const float LTC_HEADROOM = 0.0625;
 
-// Spread of directions around the mean one where no outline limits it, in units of their distance. This and the
-// following are the fit `softbox::fit::fit_lookup`.
-static const float LTC_LOOKUP_SPREAD = 0.497;
-
-// The same for the blur.
-static const float LTC_LOOKUP_BLUR = 0.97;
-
 // Share of the blur's variance that is missing for a direction on the horizon.
 static const float LTC_LOOKUP_TILT = 0.555;
 
@@ -354,9 +570,6 @@ static const float LTC_LOOKUP_EDGE_ON = 0.7;
 
 // How much further from the middle to look for each unit of variance: blurred images are drawn to it.
 static const float LTC_LOOKUP_PUSH = 3.7;
-
-// The same for each unit of the variance's square, over that.
-static const float LTC_LOOKUP_PUSH_MORE = 3.4;
 
 // Least share of the longer variance in that of each sample of a pair.
 static const float LTC_LOOKUP_PAIR_SHARE = 0.133;
@@ -370,6 +583,15 @@ static const float LTC_SHEEN_ROUGHNESS_FLOOR = 0.1;
 // Albedo to which a lobe's own is raised where energy compensation divides by it. No entry of the
 // table for GGX is as small.
 static const float LTC_ALBEDO_FLOOR = 0.125;
+
+// Smallest alpha along any direction: the square of LTC_ROUGHNESS_FLOOR.
+static const float LTC_ALPHA_FLOOR = 0.0004;
+
+// Texels along each of the anisotropic table's four axes.
+static const float LTC_ANISOTROPIC_SIZE = 8.0;
+
+// Tangent of half the stretched view's angle around which the table's second axis bends.
+static const float LTC_ANISOTROPIC_KNEE = 0.8;
 
 // Largest absolute component of `v`.
 float ltc_extent(float3 v)
@@ -424,6 +646,7 @@ LtcSurface ltc_surface(float3 position, float3 normal, float3 view, float roughn
     return ltcsurface;
 }
 
+#if LTC_ANISOTROPIC || LTC_CLEARCOAT || LTC_GGX || LTC_ROUGH_DIFFUSE || LTC_SHEEN
 // Texture coordinates of a surface in a table of `table_size` by `table_size` texels: roughness
 // along x, the square root of the view's cosine along y, from the first texel's centre to the last
 // one's. Sample with bilinear filtering and clamping.
@@ -432,7 +655,9 @@ float2 ltc_table_coordinates(LtcSurface surface, float table_size)
     float root = (surface.cos_view * rsqrt(max(surface.cos_view, 1e-20)));
     return (((float2(surface.roughness, root) * (table_size - 1.0)) + (0.5).xx) / (table_size).xx);
 }
+#endif
 
+#if LTC_CLEARCOAT || LTC_GGX || LTC_ROUGH_DIFFUSE || LTC_SHEEN
 // The lobe whose inverse matrix has the rows (m.x, 0, m.z), (0, 1, 0), (m.y, 0, m.w) in the surface's frame.
 LtcLobe ltc_planar_lobe(LtcSurface surface, float4 m, float albedo, float fresnel)
 {
@@ -451,7 +676,9 @@ LtcLobe ltc_planar_lobe(LtcSurface surface, float4 m, float albedo, float fresne
     const LtcLobe ltclobe = _e68;
     return ltclobe;
 }
+#endif
 
+#if LTC_CLEARCOAT || LTC_GGX
 // The lobe that two texels of the table describe.
 //
 // `shape` (layer 0) holds the lobe as its deviation (X, Y, Z, W) from the mirror's lobe, in units
@@ -471,7 +698,9 @@ LtcLobe ltc_lobe(LtcSurface surface, float4 shape, float4 amplitude)
     const LtcLobe ltclobe = _e22;
     return ltclobe;
 }
+#endif
 
+#if LTC_CLEARCOAT || LTC_GGX
 // The lobe of a surface from the table's texture array (layers 0 and 1, `table_size` texels along
 // each side) and a sampler that filters linearly and clamps to the edge.
 LtcLobe ltc_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, SamplerState table_sampler, float table_size)
@@ -483,13 +712,17 @@ LtcLobe ltc_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, Sa
     const LtcLobe ltclobe = _e11;
     return ltclobe;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
 // `v`, a vector from the surface point, in the lobe's space.
 float3 ltc_transform(LtcLobe lobe, float3 v)
 {
     return float3(dot(lobe.axis_x, v), dot(lobe.axis_y, v), dot(lobe.axis_z, v));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
 // The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
 // product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
 // the surface point closely.
@@ -497,7 +730,9 @@ float3 ltc_transform_normal(LtcLobe lobe, float3 v)
 {
     return float3(dot(lobe.normal_x, v), dot(lobe.normal_y, v), dot(lobe.normal_z, v));
 }
+#endif
 
+#if LTC_GGX
 // Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
 // `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
 // light of unit radiance (Schlick 1994).
@@ -505,7 +740,9 @@ float3 ltc_reflectance(float3 value, float3 normal_reflectance, float3 grazing_r
 {
     return ((normal_reflectance * (value.y - value.z)) + (grazing_reflectance * value.z));
 }
+#endif
 
+#if (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || LTC_GGX
 // The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
 // its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
 //
@@ -523,31 +760,58 @@ float2 ltc_specular(LtcSurface surface, LtcLobe lobe, float coverage, float3 tow
     float whole = (coverage * coverage);
     return (coverage * float2(lobe.albedo, (((lobe.albedo * schlick) * (1.0 - whole)) + (lobe.fresnel * whole))));
 }
+#endif
 
+#if (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || LTC_GGX
+// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
+float2 ltc_lobe_value(LtcSurface surface, LtcLobe lobe, float3 toward)
+{
+    const float2 _e9 = ltc_specular(surface, lobe, clamp((toward.z / lobe.share), 0.0, 1.0), toward);
+    return _e9;
+}
+#endif
+
+#if LTC_DISK || LTC_POLYGON || LTC_QUAD || LTC_SPHERE || LTC_TUBE
 // The value (diffuse, specular, fresnel) from the form factor over the surface's horizon and the vector
 // form factor over both horizons in the lobe's space, both of the light that the surface receives.
 float3 ltc_value(LtcSurface surface, LtcLobe lobe, float form_factor, float3 toward)
 {
-    const float2 _e10 = ltc_specular(surface, lobe, clamp((toward.z / lobe.share), 0.0, 1.0), toward);
-    return float3(form_factor, _e10);
-}
+    float2 specular = (0.0).xx;
 
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float2 _e8 = ltc_lobe_value(surface, lobe, toward);
+        specular = _e8;
+    }
+#endif
+    float2 _e9 = specular;
+    return float3(form_factor, _e9);
+}
+#endif
+
+#if LTC_POLYGON || LTC_QUAD || LTC_TEXTURED
 // The form factor of the light that arrives, from a signed one; `front` tells whether the light shows its
 // emitting side. A two-sided light is lit by the sign that the sum itself has: `front` may differ from it by
 // rounding where the light is seen edge-on.
 float ltc_received(float form_factor, bool front, bool two_sided)
 {
-    float received = (two_sided ? abs(form_factor) : form_factor);
-    return ((front | two_sided) ? clamp(received, 0.0, 1.0) : 0.0);
+    bool both_sides = (two_sided & ltc_use_two_sided);
+    float received = (both_sides ? abs(form_factor) : form_factor);
+    return ((front | both_sides) ? clamp(received, 0.0, 1.0) : 0.0);
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // ltc_received for a vector form factor, whose sign is that of its z.
 float3 ltc_received_vector(float3 form_factor, bool front, bool two_sided)
 {
-    float3 received = ((two_sided & (form_factor.z < 0.0)) ? -(form_factor) : form_factor);
-    return ((front | two_sided) ? received : (0.0).xxx);
+    bool both_sides = (two_sided & ltc_use_two_sided);
+    float3 received = ((both_sides & (form_factor.z < 0.0)) ? -(form_factor) : form_factor);
+    return ((front | both_sides) ? received : (0.0).xxx);
 }
+#endif
 
+#if LTC_DISK || LTC_POLYGON || LTC_QUAD || LTC_SPHERE || LTC_TEXTURED || LTC_TUBE
 // (t / sin t) - 1 for an angle t of at most pi/2, from k = 1 - cos t. The relative error of
 // t / sin t is below 2e-7. The coefficients are the minimax fit `softbox::fit::fit_angle_excess`
 // of degree 7; no built-in inverse function of WGSL is guaranteed to be as close.
@@ -557,14 +821,18 @@ float ltc_angle_excess(float k)
     float low = (((((0.03800492 + (high * k)) * k) + 0.054650154) * k) + 0.13356799);
     return (((low * k) + 0.33332586) * k);
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
 // The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
 // two has the fewest digits to lose.
 float3 ltc_edge_normal(float3 a, float3 b, float3 side)
 {
     return cross(((dot(b, b) < dot(a, a)) ? b : a), side);
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
 // The angle between the unit vectors `a` and `b`, whose sine is given.
 float ltc_angle(float3 a, float3 b, float sine)
 {
@@ -575,7 +843,9 @@ float ltc_angle(float3 a, float3 b, float sine)
     float acute = (bounded + (bounded * _e13));
     return ((k > 1.0) ? (LTC_PI - acute) : acute);
 }
+#endif
 
+#if LTC_QUAD || LTC_TEXTURED
 // The edge integral of the segment between the directions `a` and `b` (unit vectors): the angle t between
 // them along the unit normal of their plane, which is 2 pi times the edge's share of the vector form
 // factor (Lambert; Baum et al. 1989). `normal` is the cross product of the two vectors before they were
@@ -592,7 +862,9 @@ float3 ltc_edge(float3 a, float3 b, float3 normal, float scale)
     const float _e10 = ltc_angle(a, b, ((squared * inverse_length) * scale));
     return (normal * (inverse_length * _e10));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || LTC_POLYGON || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // ltc_edge for a part of an edge, for which `normal` has the right direction only.
 float3 ltc_edge_part(float3 a, float3 b, float3 normal)
 {
@@ -602,14 +874,18 @@ float3 ltc_edge_part(float3 a, float3 b, float3 normal)
     const float _e14 = ltc_angle(a, b, (squared * rsqrt(max(squared, 1e-30))));
     return (normal * (inverse_length * _e14));
 }
+#endif
 
+#if LTC_POLYGON || LTC_QUAD || LTC_TEXTURED
 // The edge integral of a short edge from the unit vector `a` along `chord`, less the cross product of its ends.
 float3 ltc_edge_excess(float3 a, float3 chord)
 {
     const float _e8 = ltc_angle_excess(min((0.5 * dot(chord, chord)), 1.0));
     return (cross(a, chord) * _e8);
 }
+#endif
 
+#if LTC_POLYGON
 // ltc_edge_about for offsets that are both shorter than a quarter.
 float3 ltc_edge_near(float3 reference, float3 a, float3 a_offset, float3 b_offset)
 {
@@ -618,7 +894,9 @@ float3 ltc_edge_near(float3 reference, float3 a, float3 a_offset, float3 b_offse
     const float3 _e17 = ltc_edge_excess(a, (b_offset - a_offset));
     return (((reference * along) + cross(reference, across)) + _e17);
 }
+#endif
 
+#if LTC_POLYGON
 // The edge integral of the unit vectors `a` and `b`, less a part that vanishes over every closed
 // polygon. The offsets are a - reference and b - reference; `normal` has the direction of a x b.
 //
@@ -638,7 +916,9 @@ float3 ltc_edge_about(float3 reference, float3 a, float3 a_offset, float3 b, flo
     const float3 _e15 = ltc_edge_part(a, b, normal);
     return (((_e6 - _e13) + _e15) - cross(a, (b - a)));
 }
+#endif
 
+#if LTC_POLYGON
 // Difference of the directions of `target_point` and `origin`, which differ by `offset`, with the
 // relative precision of `offset`: the two unit vectors themselves differ by rounding alone when the
 // points are close. `reference` is the direction of `origin`.
@@ -651,7 +931,9 @@ float3 ltc_offset(float3 origin, float3 reference, float3 target_point, float3 o
     float3 far = ((target_point * inverse_length) - reference);
     return ((dot(offset, offset) < (0.0625 * dot(origin, origin))) ? near : far);
 }
+#endif
 
+#if LTC_QUAD || LTC_TEXTURED
 // ltc_offset for an offset much shorter than `origin`.
 float3 ltc_far_offset(float3 origin, float3 reference, float3 offset)
 {
@@ -661,14 +943,18 @@ float3 ltc_far_offset(float3 origin, float3 reference, float3 offset)
     float length_difference = (dot(offset, (origin + target_point)) / max(length_sum, LTC_TINY));
     return ((offset - (reference * length_difference)) * inverse_length);
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
 // as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
 bool ltc_is_above(float3 v)
 {
     return ((v.z > 0.0) | ((v.z * v.z) < (1e-12 * dot(v, v))));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
 // it passes the surface point closely. `normal` has the direction of above x below.
 float3 ltc_crossing(float3 above, float3 below, float3 normal)
@@ -680,7 +966,52 @@ float3 ltc_crossing(float3 above, float3 below, float3 normal)
     bool tilted = (dot(turned, turned) > (0.001 * dot(normal, normal)));
     return ((cancels & tilted) ? turned : between);
 }
+#endif
 
+#if (LTC_CHEAP_HORIZON && LTC_QUAD) || (LTC_CHEAP_HORIZON && LTC_TEXTURED) || LTC_SPHERE
+// The form factor of what a horizon leaves of a round light: `size` is the sine of its half-angle, `tilt` the cosine between
+// its direction and the horizon's normal, `offset` the cosine of half the arc of its rim that is above, less for more,
+// and `reach` the sine (Snyder 1996, "Area Light Sources for Real-Time Graphics", in another form).
+float ltc_cap(float size, float tilt, float offset, float reach)
+{
+    float half_chord = (size * reach);
+    float k = ((2.0 * half_chord) * half_chord);
+    float under = max((1.0 - (half_chord * half_chord)), 0.0);
+    float sine = ((2.0 * half_chord) * (under * rsqrt(max(under, LTC_TINY))));
+    const float _e23 = ltc_angle_excess(min(k, (2.0 - k)));
+    float excess = (sine * _e23);
+    float rest = ((k > 1.0) ? ((LTC_PI - (2.0 * sine)) - excess) : excess);
+    float around_k = ((2.0 * reach) * reach);
+    float lesser = ((2.0 * reach) * abs(offset));
+    const float _e45 = ltc_angle_excess(max(min(around_k, (2.0 - around_k)), 0.0));
+    float acute = (lesser + (lesser * _e45));
+    float part = ((around_k > 1.0) ? (LTC_PI - acute) : acute);
+    float angle = ((tilt < 0.0) ? part : (6.2831855 - part));
+    return ((rest + (tilt * ((sine * tilt) + ((size * size) * angle)))) * LTC_OVER_TWO_PI);
+}
+#endif
+
+#if (LTC_CHEAP_HORIZON && LTC_QUAD) || (LTC_CHEAP_HORIZON && LTC_TEXTURED)
+// The form factor of what the horizon with the given unit normal leaves of the round light whose vector form factor is
+// given: the sine of its half-angle is the root of that one's length.
+float ltc_cap_above(float3 form_factor, float3 normal)
+{
+    float squared = dot(form_factor, form_factor);
+    float inverse_length = rsqrt(max(squared, LTC_TINY));
+    float whole = min((squared * inverse_length), 1.0);
+    float tilt = clamp((dot(form_factor, normal) * inverse_length), -1.0, 1.0);
+    float size = (whole * rsqrt(max(whole, LTC_TINY)));
+    float rise = ((1.0 - (tilt * tilt)) * whole);
+    float height_squared = max((1.0 - whole), 0.0);
+    float height = (tilt * (height_squared * rsqrt(max(height_squared, LTC_TINY))));
+    float offset = clamp((-(height) * rsqrt(max(rise, 1e-30))), -1.0, 1.0);
+    float under = max((1.0 - (offset * offset)), 0.0);
+    const float _e48 = ltc_cap(size, tilt, offset, (under * rsqrt(max(under, LTC_TINY))));
+    return saturate(((offset <= -1.0) ? (whole * tilt) : ((offset >= 1.0) ? 0.0 : _e48)));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 // horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
 // next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
@@ -757,7 +1088,9 @@ float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_n
     const float3 _e148 = ltc_edge_part(e_start, a_end, e_normal);
     return -((((((_e141 + _e142) + _e144) + _e146) + _e148) + _e140));
 }
+#endif
 
+#if LTC_QUAD || LTC_TEXTURED
 // Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
 // on or near it and the offsets of its vertices from there, all much shorter than the distance; `five` tells
 // whether `d` and `e` differ.
@@ -801,7 +1134,9 @@ float3 ltc_far_pentagon(float3 origin, float3 a, float3 b, float3 c, float3 d, f
     float3 excess = ((((_e60 + _e63) + _e67) + _e69) + _e75);
     return -((((reference * dot(reference, area)) + cross(reference, (0.5 * across))) + excess));
 }
+#endif
 
+#if LTC_QUAD || LTC_TEXTURED
 // Cuts a convex quad light with the vertices `a`, `b`, `c`, `d` at the surface's horizon; see ltc_quad.
 LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_9, float3 b_7, float3 c_2, float3 d_2, bool two_sided_2)
 {
@@ -829,12 +1164,13 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_9, float3 b_7, float3 c_2, f
     float3 side_d = (((d_2 * LTC_HEADROOM) - a_far) * scale);
     float3 p_a = (a_full * scale);
     quad.front = (dot(cross(side_c, (side_d - side_b)), p_a) < 0.0);
-    quad.two_sided = two_sided_2;
+    quad.two_sided = (two_sided_2 & ltc_use_two_sided);
     quad.reaches = false;
-    bool _e56 = quad.front;
-    if (!((_e56 | two_sided_2))) {
-        LtcQuad _e59 = quad;
-        const LtcQuad ltcquad = _e59;
+    bool _e58 = quad.front;
+    bool _e60 = quad.two_sided;
+    if (!((_e58 | _e60))) {
+        LtcQuad _e63 = quad;
+        const LtcQuad ltcquad = _e63;
         return ltcquad;
     }
     float size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
@@ -850,8 +1186,8 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_9, float3 b_7, float3 c_2, f
     bool c_up = (heights.z > 0.0);
     bool d_up = (heights.w > 0.0);
     if (!((((a_up | b_up) | c_up) | d_up))) {
-        LtcQuad _e105 = quad;
-        const LtcQuad ltcquad_1 = _e105;
+        LtcQuad _e109 = quad;
+        const LtcQuad ltcquad_1 = _e109;
         return ltcquad_1;
     }
     quad.reaches = true;
@@ -862,9 +1198,10 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_9, float3 b_7, float3 c_2, f
     v_c = p_c;
     v_d = p_d;
     v_e = p_d;
-    quad.clipped = !((((a_up & b_up) & c_up) & d_up));
-    bool _e123 = quad.clipped;
-    if (_e123) {
+    quad.clipped = (!((((a_up & b_up) & c_up) & d_up)) & !(ltc_use_cheap_horizon));
+    bool _e132 = quad.clipped;
+#if !LTC_CHEAP_HORIZON
+    if ((!(ltc_use_cheap_horizon) & _e132)) {
         bool last_a = (b_up & !(a_up));
         bool last_b = (c_up & !(b_up));
         bool last_c = (d_up & !(c_up));
@@ -893,53 +1230,56 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_9, float3 b_7, float3 c_2, f
         v_d = leave;
         v_e = (q_a + ((q_d - q_a) * (h.x / max((h.x - h.w), LTC_TINY))));
     }
+#endif
     float3 base_2 = (distant ? p_a : (0.0).xxx);
-    float3 _e187 = v_a;
-    quad.a = _e187;
-    float3 _e189 = v_b;
-    quad.b = _e189;
-    float3 _e191 = v_c;
-    quad.c = _e191;
-    float3 _e193 = v_d;
-    quad.d = _e193;
-    float3 _e195 = v_e;
-    quad.e = _e195;
+    float3 _e197 = v_a;
+    quad.a = _e197;
+    float3 _e199 = v_b;
+    quad.b = _e199;
+    float3 _e201 = v_c;
+    quad.c = _e201;
+    float3 _e203 = v_d;
+    quad.d = _e203;
+    float3 _e205 = v_e;
+    quad.e = _e205;
     quad.base = base_2;
-    float3 _e198 = v_a;
-    float3 _e200 = v_b;
-    float3 _e202 = v_b;
-    float3 _e203 = v_a;
-    const float3 _e205 = ltc_edge_normal((base_2 + _e198), (base_2 + _e200), (_e202 - _e203));
-    quad.a_normal = _e205;
-    float3 _e207 = v_b;
-    float3 _e209 = v_c;
-    float3 _e211 = v_c;
+    float3 _e208 = v_a;
+    float3 _e210 = v_b;
     float3 _e212 = v_b;
-    const float3 _e214 = ltc_edge_normal((base_2 + _e207), (base_2 + _e209), (_e211 - _e212));
-    quad.b_normal = _e214;
-    float3 _e216 = v_c;
-    float3 _e218 = v_d;
-    float3 _e220 = v_d;
+    float3 _e213 = v_a;
+    const float3 _e215 = ltc_edge_normal((base_2 + _e208), (base_2 + _e210), (_e212 - _e213));
+    quad.a_normal = _e215;
+    float3 _e217 = v_b;
+    float3 _e219 = v_c;
     float3 _e221 = v_c;
-    const float3 _e223 = ltc_edge_normal((base_2 + _e216), (base_2 + _e218), (_e220 - _e221));
-    quad.c_normal = _e223;
-    float3 _e227 = v_d;
-    float3 _e229 = v_e;
-    float3 _e231 = v_e;
-    float3 _e232 = v_d;
-    const float3 _e234 = ltc_edge_normal((base_2 + _e227), (base_2 + _e229), (_e231 - _e232));
-    quad.d_normal = (surface.normal * dot(surface.normal, _e234));
-    float3 _e238 = v_e;
-    float3 _e240 = v_a;
-    float3 _e242 = v_a;
-    float3 _e243 = v_e;
-    const float3 _e245 = ltc_edge_normal((base_2 + _e238), (base_2 + _e240), (_e242 - _e243));
-    quad.e_normal = _e245;
-    LtcQuad _e246 = quad;
-    const LtcQuad ltcquad_2 = _e246;
+    float3 _e222 = v_b;
+    const float3 _e224 = ltc_edge_normal((base_2 + _e217), (base_2 + _e219), (_e221 - _e222));
+    quad.b_normal = _e224;
+    float3 _e226 = v_c;
+    float3 _e228 = v_d;
+    float3 _e230 = v_d;
+    float3 _e231 = v_c;
+    const float3 _e233 = ltc_edge_normal((base_2 + _e226), (base_2 + _e228), (_e230 - _e231));
+    quad.c_normal = _e233;
+    float3 _e237 = v_d;
+    float3 _e239 = v_e;
+    float3 _e241 = v_e;
+    float3 _e242 = v_d;
+    const float3 _e244 = ltc_edge_normal((base_2 + _e237), (base_2 + _e239), (_e241 - _e242));
+    quad.d_normal = (surface.normal * dot(surface.normal, _e244));
+    float3 _e248 = v_e;
+    float3 _e250 = v_a;
+    float3 _e252 = v_a;
+    float3 _e253 = v_e;
+    const float3 _e255 = ltc_edge_normal((base_2 + _e248), (base_2 + _e250), (_e252 - _e253));
+    quad.e_normal = _e255;
+    LtcQuad _e256 = quad;
+    const LtcQuad ltcquad_2 = _e256;
     return ltcquad_2;
 }
+#endif
 
+#if LTC_QUAD || LTC_TEXTURED
 // Vector form factor, times 2 pi and signed, of what the surface's horizon leaves of a quad, in the
 // caller's space.
 float3 ltc_quad_form_factor(LtcQuad quad)
@@ -965,29 +1305,53 @@ float3 ltc_quad_form_factor(LtcQuad quad)
     const float3 _e59 = ltc_edge(c_unit, d_unit, quad.c_normal, (c_inverse * d_inverse));
     const float3 _e63 = ltc_edge(e_unit, a_unit, quad.e_normal, (e_inverse * a_inverse));
     edges = (((_e52 + _e55) + _e59) + _e63);
-    if (quad.clipped) {
-        float3 _e67 = edges;
-        const float3 _e70 = ltc_edge(d_unit, e_unit, quad.d_normal, (d_inverse * e_inverse));
-        edges = (_e67 + _e70);
+#if !LTC_CHEAP_HORIZON
+    if ((!(ltc_use_cheap_horizon) & quad.clipped)) {
+        float3 _e70 = edges;
+        const float3 _e73 = ltc_edge(d_unit, e_unit, quad.d_normal, (d_inverse * e_inverse));
+        edges = (_e70 + _e73);
     }
-    float3 _e72 = edges;
-    return -(_e72);
+#endif
+    float3 _e75 = edges;
+    return -(_e75);
 }
+#endif
 
+#if LTC_QUAD || LTC_TEXTURED
 // The form factor of a quad, 0 to 1.
 float ltc_quad_diffuse(LtcSurface surface, LtcQuad quad)
 {
     if (!(quad.reaches)) {
         return 0.0;
     }
-    const float3 _e6 = ltc_quad_form_factor(quad);
-    const float _e12 = ltc_received((dot(surface.normal, _e6) * LTC_OVER_TWO_PI), quad.front, quad.two_sided);
-    return _e12;
+    const float3 _e5 = ltc_quad_form_factor(quad);
+    float3 form_factor = (_e5 * LTC_OVER_TWO_PI);
+#if LTC_CHEAP_HORIZON
+    if (ltc_use_cheap_horizon) {
+        const float _e13 = ltc_cap_above((quad.front ? form_factor : -(form_factor)), surface.normal);
+        return _e13;
+    }
+#endif
+    const float _e18 = ltc_received(dot(surface.normal, form_factor), quad.front, quad.two_sided);
+    return _e18;
 }
+#endif
 
+#if LTC_TEXTURED
+// The vector form factor of a quad, cut at the surface's horizon, in the caller's space, towards the light.
+float3 ltc_quad_toward(LtcSurface surface, LtcQuad quad)
+{
+    const float3 _e2 = ltc_quad_form_factor(quad);
+    float3 form_factor = (_e2 * LTC_OVER_TWO_PI);
+    return ((dot(surface.normal, form_factor) < 0.0) ? -(form_factor) : form_factor);
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
 float3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe)
 {
+    LtcQuad moved = (LtcQuad)0;
     float3 sum = (float3)0;
 
     if (!(quad.reaches)) {
@@ -1001,23 +1365,53 @@ float3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe)
     const float3 _e17 = ltc_transform(lobe, quad.base);
     float lowest = (_e17.z + min(min(min(_e7.z, _e9.z), min(_e11.z, _e13.z)), _e15.z));
     float size = max(max(max(dot(_e7, _e7), dot(_e9, _e9)), max(dot(_e11, _e11), dot(_e13, _e13))), dot(_e15, _e15));
-    if (((quad.distant & (lowest > 0.0)) & (size < (0.0625 * dot(_e17, _e17))))) {
-        const float3 _e49 = ltc_far_pentagon(_e17, _e7, _e9, _e11, _e13, _e15, quad.clipped);
-        sum = _e49;
-    } else {
-        const float3 _e56 = ltc_transform_normal(lobe, quad.a_normal);
-        const float3 _e58 = ltc_transform_normal(lobe, quad.b_normal);
-        const float3 _e60 = ltc_transform_normal(lobe, quad.c_normal);
-        const float3 _e62 = ltc_transform_normal(lobe, quad.d_normal);
-        const float3 _e64 = ltc_transform_normal(lobe, quad.e_normal);
-        const float3 _e66 = ltc_pentagon((_e17 + _e7), (_e17 + _e9), (_e17 + _e11), (_e17 + _e13), (_e17 + _e15), _e56, _e58, _e60, _e62, _e64, quad.clipped);
-        sum = _e66;
+#if LTC_CHEAP_HORIZON
+    if (ltc_use_cheap_horizon) {
+        moved = quad;
+        moved.distant = (quad.distant & (size < (0.0625 * dot(_e17, _e17))));
+        bool _e50 = moved.distant;
+        float3 offset = (_e50 ? (0.0).xxx : _e17);
+        moved.base = _e17;
+        moved.a = (_e7 + offset);
+        moved.b = (_e9 + offset);
+        moved.c = (_e11 + offset);
+        moved.d = (_e13 + offset);
+        moved.e = (_e15 + offset);
+        const float3 _e65 = ltc_transform_normal(lobe, quad.a_normal);
+        moved.a_normal = _e65;
+        const float3 _e68 = ltc_transform_normal(lobe, quad.b_normal);
+        moved.b_normal = _e68;
+        const float3 _e71 = ltc_transform_normal(lobe, quad.c_normal);
+        moved.c_normal = _e71;
+        const float3 _e74 = ltc_transform_normal(lobe, quad.e_normal);
+        moved.e_normal = _e74;
+        LtcQuad _e75 = moved;
+        const float3 _e76 = ltc_quad_form_factor(_e75);
+        float3 winding = (_e76 * LTC_OVER_TWO_PI);
+        float3 form_factor = (quad.front ? winding : -(winding));
+        const float _e87 = ltc_cap_above(form_factor, float3(0.0, 0.0, 1.0));
+        return (float3(form_factor.xy, _e87) * lobe.share);
     }
-    float3 _e67 = sum;
-    const float3 _e72 = ltc_received_vector((_e67 * LTC_OVER_TWO_PI), quad.front, quad.two_sided);
-    return _e72;
+#endif
+    if (((quad.distant & (lowest > 0.0)) & (size < (0.0625 * dot(_e17, _e17))))) {
+        const float3 _e102 = ltc_far_pentagon(_e17, _e7, _e9, _e11, _e13, _e15, quad.clipped);
+        sum = _e102;
+    } else {
+        const float3 _e109 = ltc_transform_normal(lobe, quad.a_normal);
+        const float3 _e111 = ltc_transform_normal(lobe, quad.b_normal);
+        const float3 _e113 = ltc_transform_normal(lobe, quad.c_normal);
+        const float3 _e115 = ltc_transform_normal(lobe, quad.d_normal);
+        const float3 _e117 = ltc_transform_normal(lobe, quad.e_normal);
+        const float3 _e119 = ltc_pentagon((_e17 + _e7), (_e17 + _e9), (_e17 + _e11), (_e17 + _e13), (_e17 + _e15), _e109, _e111, _e113, _e115, _e117, quad.clipped);
+        sum = _e119;
+    }
+    float3 _e120 = sum;
+    const float3 _e125 = ltc_received_vector((_e120 * LTC_OVER_TWO_PI), quad.front, quad.two_sided);
+    return _e125;
 }
+#endif
 
+#if LTC_QUAD
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
 // `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
 // vertices make it a triangle. For a quad that is not convex use the polygon functions.
@@ -1027,18 +1421,33 @@ float3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe)
 // 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
 // Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
 // place of 1e-6: so much do the coordinates' own digits leave open.
+//
+// With the switch for a cheap horizon a light is not cut. A round light of the same vector form factor stands in for
+// it where a horizon would cut it (Hill and Heitz 2016, "Real-Time Area Lighting: a Journey from Research to
+// Production"), and lobes are cut at their own horizon only. A light above the horizons has the same value; one that
+// straddles them is off by up to 0.1, and light may come from a little below the surface.
 float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, float3 d, bool two_sided)
 {
+    float3 toward = (0.0).xxx;
+
     const LtcQuad _e7 = ltc_quad_begin(surface, a, b, c, d, two_sided);
     if (!(_e7.reaches)) {
         return (0.0).xxx;
     }
-    const float _e12 = ltc_quad_diffuse(surface, _e7);
-    const float3 _e13 = ltc_quad_lobe(_e7, lobe);
-    const float3 _e14 = ltc_value(surface, lobe, _e12, _e13);
-    return _e14;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e16 = ltc_quad_lobe(_e7, lobe);
+        toward = _e16;
+    }
+#endif
+    const float _e17 = ltc_quad_diffuse(surface, _e7);
+    float3 _e18 = toward;
+    const float3 _e19 = ltc_value(surface, lobe, _e17, _e18);
+    return _e19;
 }
+#endif
 
+#if LTC_POLYGON
 // Starts an outline at its first vertex.
 LtcOutline ltc_outline_begin(LtcSurface surface, float3 corner)
 {
@@ -1056,7 +1465,9 @@ LtcOutline ltc_outline_begin(LtcSurface surface, float3 corner)
     const LtcOutline ltcoutline = _e23;
     return ltcoutline;
 }
+#endif
 
+#if LTC_POLYGON
 // ltc_edge_about for points and their offsets from `origin`. A point far from `origin` may as well be
 // given by its direction.
 float3 ltc_edge_from(float3 origin, float3 a, float3 a_offset, float3 b, float3 b_offset, float3 normal)
@@ -1069,7 +1480,9 @@ float3 ltc_edge_from(float3 origin, float3 a, float3 a_offset, float3 b, float3 
     const float3 _e23 = ltc_edge_about(reference, a_unit, _e21, b_unit, _e22, normal);
     return _e23;
 }
+#endif
 
+#if LTC_POLYGON
 // Adds the next vertex, or the first one again to close the outline.
 void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner)
 {
@@ -1131,15 +1544,15 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
             float3 horizon_start_offset = (a_up ? crossing_offset : base_offset);
             float3 horizon_end_offset = (a_up ? base_offset : crossing_offset);
             const float3 _e109 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
-            float3 normal_11 = (surface.normal * dot(surface.normal, _e109));
+            float3 normal_13 = (surface.normal * dot(surface.normal, _e109));
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
-            outline.horizon_normal = normal_11;
+            outline.horizon_normal = normal_13;
             float _e122 = outline.diffuse;
-            const float3 _e124 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_11);
+            const float3 _e124 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
             outline.diffuse = (_e122 - dot(surface.normal, _e124));
         } else {
             outline.crossed = true;
@@ -1174,7 +1587,9 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
     outline.diffuse = (_e151 - dot(surface.normal, _e157));
     return;
 }
+#endif
 
+#if LTC_POLYGON
 // Starts a lobe's part of an outline.
 LtcOutlineLobe ltc_outline_lobe_begin()
 {
@@ -1186,7 +1601,9 @@ LtcOutlineLobe ltc_outline_lobe_begin()
     const LtcOutlineLobe ltcoutlinelobe = _e6;
     return ltcoutlinelobe;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
 void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, float3 reference, float3 a, float3 a_offset, float3 b, float3 b_offset, float3 normal)
 {
@@ -1246,7 +1663,9 @@ void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, float3 refe
     sum_2.sum = (_e67 - _e72);
     return;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // Adds what ltc_outline_add has last added to `outline` to a lobe.
 void ltc_outline_lobe_add(inout LtcOutlineLobe sum, LtcOutline outline, LtcLobe lobe)
 {
@@ -1260,7 +1679,9 @@ void ltc_outline_lobe_add(inout LtcOutlineLobe sum, LtcOutline outline, LtcLobe 
     ltc_outline_lobe_edge(sum, lobe, _e6, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal);
     return;
 }
+#endif
 
+#if LTC_POLYGON
 // The form factor of a closed outline, 0 to 1. Its error is that of ltc_quad, and grows with the root of the number
 // of vertices.
 float ltc_outline_diffuse(LtcOutline outline, bool two_sided)
@@ -1268,14 +1689,18 @@ float ltc_outline_diffuse(LtcOutline outline, bool two_sided)
     const float _e8 = ltc_received((outline.diffuse * LTC_OVER_TWO_PI), (outline.facing < 0.0), two_sided);
     return _e8;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // The vector form factor of a closed outline in a lobe's space, cut at both horizons, towards the light.
 float3 ltc_outline_lobe(LtcOutline outline, LtcOutlineLobe sum_4, bool two_sided)
 {
     const float3 _e9 = ltc_received_vector((sum_4.sum * LTC_OVER_TWO_PI), (outline.facing < 0.0), two_sided);
     return _e9;
 }
+#endif
 
+#if LTC_POLYGON
 // Starts a polygon at its first vertex.
 LtcPolygon ltc_polygon_begin(LtcSurface surface, float3 corner)
 {
@@ -1289,9 +1714,11 @@ LtcPolygon ltc_polygon_begin(LtcSurface surface, float3 corner)
     const LtcPolygon ltcpolygon = _e7;
     return ltcpolygon;
 }
+#endif
 
+#if LTC_POLYGON
 // Adds the next vertex.
-void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_9, float3 corner)
+void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_10, float3 corner)
 {
     LtcOutline outline_5 = (LtcOutline)0;
     LtcOutlineLobe sum = (LtcOutlineLobe)0;
@@ -1301,41 +1728,61 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_
     LtcOutlineLobe _e8 = polygon.lobe;
     sum = _e8;
     ltc_outline_add(outline_5, surface, corner);
-    LtcOutline _e10 = outline_5;
-    ltc_outline_lobe_add(sum, _e10, lobe_9);
-    LtcOutline _e12 = outline_5;
-    polygon.outline = _e12;
-    LtcOutlineLobe _e14 = sum;
-    polygon.lobe = _e14;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        LtcOutline _e11 = outline_5;
+        ltc_outline_lobe_add(sum, _e11, lobe_10);
+    }
+#endif
+    LtcOutline _e13 = outline_5;
+    polygon.outline = _e13;
+    LtcOutlineLobe _e15 = sum;
+    polygon.lobe = _e15;
     return;
 }
+#endif
 
+#if LTC_POLYGON
 // The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
-float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_10, bool two_sided)
+float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_11, bool two_sided)
 {
-    float3 first_1 = polygon.outline.first;
-    ltc_polygon_add(polygon, surface, lobe_10, first_1);
+    float3 toward = (0.0).xxx;
+
+    float3 first_2 = polygon.outline.first;
+    ltc_polygon_add(polygon, surface, lobe_11, first_2);
     LtcOutline _e8 = polygon.outline;
     const float _e9 = ltc_outline_diffuse(_e8, two_sided);
-    LtcOutline _e11 = polygon.outline;
-    LtcOutlineLobe _e13 = polygon.lobe;
-    const float3 _e14 = ltc_outline_lobe(_e11, _e13, two_sided);
-    const float3 _e15 = ltc_value(surface, lobe_10, _e9, _e14);
-    return _e15;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        LtcOutline _e15 = polygon.outline;
+        LtcOutlineLobe _e17 = polygon.lobe;
+        const float3 _e18 = ltc_outline_lobe(_e15, _e17, two_sided);
+        toward = _e18;
+    }
+#endif
+    float3 _e19 = toward;
+    const float3 _e20 = ltc_value(surface, lobe_11, _e9, _e19);
+    return _e20;
 }
+#endif
 
+#if LTC_TUBE
 // Square root of a number that is not negative; 0 below 1e-30.
 float ltc_root(float x)
 {
     return (x * rsqrt(max(x, 1e-30)));
 }
+#endif
 
+#if LTC_TUBE
 // Share of what reaches from `height` - `rise` to `height` + `rise` that is above 0.
 float ltc_tube_share(float height, float rise)
 {
     return saturate((0.5 + ((0.5 * height) / max(max(rise, abs(height)), LTC_TINY))));
 }
+#endif
 
+#if LTC_TUBE
 // The vector form factor of a line of constant width from `a` to `b`, over the sine of half the angle under
 // which that width is seen at its `foot`, the direction of its closest point, at the given distance.
 //
@@ -1366,7 +1813,9 @@ float3 ltc_tube_line(float3 a, float3 b, float3 foot, float distance_to_line, fl
     float bulge = ((k > 1.0) ? (LTC_PI - (sine * ((2.0 + _e62) - min(k, 2.0)))) : (sine * (_e62 + k)));
     return (((((a_unit * b_cosine) + (b_unit * a_cosine)) * sine) + (foot * bulge)) * 0.31830987);
 }
+#endif
 
+#if LTC_CAPS && LTC_TUBE
 // Towards a cap around `center`, the end of a tube in the direction `outward`, as long as the sine of half
 // the angle under which it is seen; in w the share of it that is seen. `inverse_distance` is 1 over the distance,
 // `reach` the radius or the tube's length if that is less, and `turned` tells how far the tube's end is turned
@@ -1380,7 +1829,9 @@ float4 ltc_tube_cap_begin(LtcSurface surface, float3 center_, float inverse_dist
     const float3 _e27 = ltc_direction((middle + (surface.normal * (radius * (1.0 - _e20)))));
     return float4((_e27 * min((radius * inverse_distance), 1.0)), ((0.5 + (0.5 * turned)) * _e20));
 }
+#endif
 
+#if LTC_TUBE
 // The tube of the given `radius` around the line from `start` to `end`, which emits outwards from its lateral
 // surface; with `caps` its ends are rounded by hemispheres that emit too, else they are open and it is
 // dark inside.
@@ -1411,18 +1862,18 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_2, float3 end_2, float r
     float squared = max(dot(moment, moment), (r * r));
     float inverse = rsqrt(max(squared, LTC_TINY));
     bool is_inside = (dot(moment, moment) < (r * r));
-    float sine_4 = (is_inside ? 1.0 : min((r * inverse), 1.0));
+    float sine_5 = (is_inside ? 1.0 : min((r * inverse), 1.0));
     float3 across_7 = (moment * inverse);
-    float nearer = (caps ? 0.0 : (0.7853982 * sine_4));
+    float nearer = ((caps & ltc_use_caps) ? 0.0 : (0.7853982 * sine_5));
     float3 moved = (cross(_e34, moment) * nearer);
     float3 upright = (surface.normal - (_e34 * dot(surface.normal, _e34)));
     float hidden = (is_inside ? max((1.0 - dot(across_7, across_7)), 0.0) : 0.0);
     float3 slope = ((across_7 * dot(surface.normal, across_7)) + (upright * hidden));
-    const float _e83 = ltc_root(max(dot(surface.normal, slope), 0.0));
-    float rise = (r * _e83);
+    const float _e85 = ltc_root(max(dot(surface.normal, slope), 0.0));
+    float rise = (r * _e85);
     float highest = max(dot(surface.normal, (p_a - moved)), dot(surface.normal, (p_b - moved)));
-    const float _e92 = ltc_tube_share(highest, rise);
-    float3 lift = (slope * ((((1.0 - _e92) * r) * r) / max(rise, LTC_TINY)));
+    const float _e94 = ltc_tube_share(highest, rise);
+    float3 lift = (slope * ((((1.0 - _e94) * r) * r) / max(rise, LTC_TINY)));
     float3 q_a = ((p_a - moved) + lift);
     float3 q_b = ((p_b - moved) + lift);
     float a_height = dot(surface.normal, q_a);
@@ -1435,44 +1886,60 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_2, float3 end_2, float r
     tube.end = (q_b - (left * b_part));
     tube.axis_distance = ((squared * inverse) * (1.0 - nearer));
     tube.axis = _e34;
-    tube.sine = sine_4;
+    tube.sine = sine_5;
     tube.across = across_7;
-    tube.share = ((max(a_height, b_height) > 0.0) ? _e92 : 0.0);
+    tube.share = ((max(a_height, b_height) > 0.0) ? _e94 : 0.0);
     tube.start_cap = (0.0).xxx;
     tube.start_weight = 0.0;
     tube.end_cap = (0.0).xxx;
     tube.end_weight = 0.0;
-    if (caps) {
+#if LTC_CAPS
+    if ((ltc_use_caps & caps)) {
         float a_inverse = rsqrt(max(max(a_squared, (r * r)), LTC_TINY));
         float b_inverse = rsqrt(max(max(b_squared, (r * r)), LTC_TINY));
         float farther = ((max(b_squared, (r * r)) * b_inverse) - (max(a_squared, (r * r)) * a_inverse));
-        float turned = (sine_4 * clamp((farther / max(full_length, LTC_TINY)), -1.0, 1.0));
+        float turned = (sine_5 * clamp((farther / max(full_length, LTC_TINY)), -1.0, 1.0));
         float reach = min(r, full_length);
-        const float4 _e186 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
-        const float4 _e188 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
-        tube.start_cap = _e186.xyz;
-        tube.start_weight = _e186.w;
-        tube.end_cap = _e188.xyz;
-        tube.end_weight = _e188.w;
+        const float4 _e190 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
+        const float4 _e192 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
+        tube.start_cap = _e190.xyz;
+        tube.start_weight = _e190.w;
+        tube.end_cap = _e192.xyz;
+        tube.end_weight = _e192.w;
     }
-    LtcTube _e197 = tube;
-    const LtcTube ltctube = _e197;
+#endif
+    LtcTube _e201 = tube;
+    const LtcTube ltctube = _e201;
     return ltctube;
 }
+#endif
 
+#if LTC_TUBE
 // The form factor of a tube, 0 to 1. Its mean error against the integral over the solid angle is 0.09 times
 // the square of radius over distance of the value, with caps 0.3 times.
 float ltc_tube_diffuse(LtcSurface surface, LtcTube tube)
 {
+    float value = (float)0;
+
     float3 foot = cross(tube.axis, tube.across);
     const float3 _e9 = ltc_tube_line(tube.start, tube.end, foot, tube.axis_distance, tube.remaining_length);
-    const float _e20 = ltc_root(dot(tube.start_cap, tube.start_cap));
-    float start_cap = ((tube.start_weight * max(dot(surface.normal, tube.start_cap), 0.0)) * _e20);
-    const float _e32 = ltc_root(dot(tube.end_cap, tube.end_cap));
-    float end_cap = ((tube.end_weight * max(dot(surface.normal, tube.end_cap), 0.0)) * _e32);
-    return saturate(((((max(dot(surface.normal, _e9), 0.0) * tube.sine) * tube.share) + start_cap) + end_cap));
+    value = ((max(dot(surface.normal, _e9), 0.0) * tube.sine) * tube.share);
+#if LTC_CAPS
+    if (ltc_use_caps) {
+        float _e20 = value;
+        const float _e31 = ltc_root(dot(tube.start_cap, tube.start_cap));
+        value = (_e20 + ((tube.start_weight * max(dot(surface.normal, tube.start_cap), 0.0)) * _e31));
+        float _e34 = value;
+        const float _e45 = ltc_root(dot(tube.end_cap, tube.end_cap));
+        value = (_e34 + ((tube.end_weight * max(dot(surface.normal, tube.end_cap), 0.0)) * _e45));
+    }
+#endif
+    float _e48 = value;
+    return saturate(_e48);
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_CAPS && LTC_TUBE) || (LTC_CAPS && LTC_CLEARCOAT && LTC_TUBE) || (LTC_CAPS && LTC_GGX && LTC_TUBE) || (LTC_CAPS && LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_CAPS && LTC_SHEEN && LTC_TUBE)
 // The vector form factor of a tube's cap in the lobe's space: that of a small disk at its middle.
 float3 ltc_tube_cap(LtcLobe lobe, float3 cap, float weight)
 {
@@ -1486,7 +1953,9 @@ float3 ltc_tube_cap(LtcLobe lobe, float3 cap, float weight)
     float form_factor = ((weight * area) / max(((1.0 - squared) + area), LTC_TINY));
     return (_e3 * ((_e3.z > 0.0) ? (form_factor * inverse) : 0.0));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_GGX && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_TUBE)
 // The vector form factor of a tube in the lobe's space, of its part above both horizons; z is not negative.
 //
 // There a tube has another width, and need be neither thin nor seen square. The two planes of its outline give
@@ -1497,29 +1966,29 @@ float3 ltc_tube_cap(LtcLobe lobe, float3 cap, float weight)
 // 0.08 of the distance: 0.006 and 0.09 % at roughness 0.4 to 1, 0.03 and 0.2 % at 0.15 to 0.4; with caps 0.02 and
 // 0.2 %, 0.04 and 0.5 %. A cap is one point: a lobe narrower than a cap misses it or sees it whole, 5 % at 0.05
 // to 0.15 and a radius of 0.02.
-float3 ltc_tube_lobe(LtcSurface surface, LtcLobe lobe, LtcTube tube)
+float3 ltc_tube_lobe(LtcTube tube, LtcLobe lobe)
 {
     float3 value = (float3)0;
 
-    const float3 _e4 = ltc_transform(lobe, tube.axis);
-    const float3 _e6 = ltc_transform_normal(lobe, tube.axis);
-    float volume = max(dot(_e6, _e4), 0.0);
-    float stretch_squared = dot(_e4, _e4);
+    const float3 _e3 = ltc_transform(lobe, tube.axis);
+    const float3 _e5 = ltc_transform_normal(lobe, tube.axis);
+    float volume = max(dot(_e5, _e3), 0.0);
+    float stretch_squared = dot(_e3, _e3);
     float stretch_inverse = rsqrt(max(stretch_squared, LTC_TINY));
     float stretch = (stretch_squared * stretch_inverse);
-    const float3 _e16 = ltc_transform_normal(lobe, tube.across);
+    const float3 _e15 = ltc_transform_normal(lobe, tube.across);
     float hidden = ((tube.sine >= 1.0) ? max((1.0 - dot(tube.across, tube.across)), 0.0) : 0.0);
-    float squared = (dot(_e16, _e16) + ((hidden * volume) * stretch));
+    float squared = (dot(_e15, _e15) + ((hidden * volume) * stretch));
     float inverse = rsqrt(max(squared, LTC_TINY));
-    float3 normal = (_e16 * inverse);
-    float3 toward = (cross(_e4, _e16) * (inverse * stretch_inverse));
-    float sine_5 = (tube.sine * tube.share);
-    const float3 _e44 = ltc_transform(lobe, tube.across);
-    float3 side = (_e44 * sine_5);
+    float3 normal = (_e15 * inverse);
+    float3 toward = (cross(_e3, _e15) * (inverse * stretch_inverse));
+    float sine_6 = (tube.sine * tube.share);
+    const float3 _e43 = ltc_transform(lobe, tube.across);
+    float3 side = (_e43 * sine_6);
     float full_depth = ((squared * inverse) * stretch_inverse);
-    const float _e53 = ltc_root(max((1.0 - (sine_5 * sine_5)), 0.0));
-    float depth = (full_depth * _e53);
-    float width = ((sine_5 * volume) * inverse);
+    const float _e52 = ltc_root(max((1.0 - (sine_6 * sine_6)), 0.0));
+    float depth = (full_depth * _e52);
+    float width = ((sine_6 * volume) * inverse);
     float slope = dot(toward, side);
     float left_depth = (depth - slope);
     float right_depth = (depth + slope);
@@ -1542,31 +2011,35 @@ float3 ltc_tube_lobe(LtcSurface surface, LtcLobe lobe, LtcTube tube)
     float shift = (((-4.0 * full_depth) * slope) / max((lengths * lengths), LTC_TINY));
     float line_distance = (tube.axis_distance * max(((foot_depth * (full_depth + (slope * shift))) + ((foot_width * width) * shift)), 0.0));
     float3 moved = (side * (tube.axis_distance * shift));
-    const float3 _e127 = ltc_transform(lobe, tube.start);
-    float3 a = (_e127 + moved);
-    const float3 _e130 = ltc_transform(lobe, tube.end);
-    float3 b = (_e130 + moved);
+    const float3 _e126 = ltc_transform(lobe, tube.start);
+    float3 a = (_e126 + moved);
+    const float3 _e129 = ltc_transform(lobe, tube.end);
+    float3 b = (_e129 + moved);
     float a_part = saturate((-(a.z) / max((b.z - a.z), LTC_TINY)));
     float b_part = saturate((-(b.z) / max((a.z - b.z), LTC_TINY)));
     float3 left = (b - a);
     float line_length = ((tube.remaining_length * stretch) * max(((1.0 - a_part) - b_part), 0.0));
-    const float3 _e163 = ltc_tube_line((a + (left * a_part)), (b - (left * b_part)), foot, line_distance, line_length);
-    value = (_e163 * ((max(a.z, b.z) > 0.0) ? ((0.5 * chord_squared) * chord_inverse) : 0.0));
-    if (((tube.start_weight + tube.end_weight) > 0.0)) {
-        float3 _e181 = value;
-        const float3 _e184 = ltc_tube_cap(lobe, tube.start_cap, tube.start_weight);
-        const float3 _e187 = ltc_tube_cap(lobe, tube.end_cap, tube.end_weight);
-        value = (_e181 + (_e184 + _e187));
-        float3 _e190 = value;
+    const float3 _e162 = ltc_tube_line((a + (left * a_part)), (b - (left * b_part)), foot, line_distance, line_length);
+    value = (_e162 * ((max(a.z, b.z) > 0.0) ? ((0.5 * chord_squared) * chord_inverse) : 0.0));
+#if LTC_CAPS
+    if ((ltc_use_caps & ((tube.start_weight + tube.end_weight) > 0.0))) {
+        float3 _e182 = value;
+        const float3 _e185 = ltc_tube_cap(lobe, tube.start_cap, tube.start_weight);
+        const float3 _e188 = ltc_tube_cap(lobe, tube.end_cap, tube.end_weight);
+        value = (_e182 + (_e185 + _e188));
         float3 _e191 = value;
         float3 _e192 = value;
-        value = (_e190 * min(rsqrt(max(dot(_e191, _e192), LTC_TINY)), 1.0));
+        float3 _e193 = value;
+        value = (_e191 * min(rsqrt(max(dot(_e192, _e193), LTC_TINY)), 1.0));
     }
-    float3 _e200 = value;
-    float _e203 = value.z;
-    return float3(_e200.xy, max(_e203, 0.0));
+#endif
+    float3 _e201 = value;
+    float _e204 = value.z;
+    return float3(_e201.xy, max(_e204, 0.0));
 }
+#endif
 
+#if LTC_TUBE
 // The value (diffuse, specular, fresnel) of a tube light of the given `radius` around the line from `start` to
 // `end`, at best an eighth of the distance or less; with `caps` its ends are rounded. See ltc_tube_begin.
 //
@@ -1576,13 +2049,23 @@ float3 ltc_tube_lobe(LtcSurface surface, LtcLobe lobe, LtcTube tube)
 // ltc_tube_lobe.
 float3 ltc_tube(LtcSurface surface, LtcLobe lobe, float3 start, float3 end, float radius, bool caps)
 {
-    const LtcTube _e6 = ltc_tube_begin(surface, start, end, radius, caps);
-    const float3 _e7 = ltc_tube_lobe(surface, lobe, _e6);
-    const float2 _e14 = ltc_specular(surface, lobe, clamp((_e7.z / lobe.share), 0.0, 1.0), _e7);
-    const float _e15 = ltc_tube_diffuse(surface, _e6);
-    return float3(_e15, _e14);
-}
+    float3 toward = (0.0).xxx;
 
+    const LtcTube _e6 = ltc_tube_begin(surface, start, end, radius, caps);
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e11 = ltc_tube_lobe(_e6, lobe);
+        toward = _e11;
+    }
+#endif
+    const float _e12 = ltc_tube_diffuse(surface, _e6);
+    float3 _e13 = toward;
+    const float3 _e14 = ltc_value(surface, lobe, _e12, _e13);
+    return _e14;
+}
+#endif
+
+#if LTC_TEXTURED
 // Factor that brings the furthest of three corners, scaled by LTC_HEADROOM, to a distance of about 1.
 float ltc_rectangle_scale(LtcSurface surface, float3 a, float3 b, float3 d)
 {
@@ -1593,7 +2076,9 @@ float ltc_rectangle_scale(LtcSurface surface, float3 a, float3 b, float3 d)
     float extent = max(max(_e10, _e14), _e19);
     return (1.0 / max(extent, LTC_TINY));
 }
+#endif
 
+#if LTC_TEXTURED
 // Variance of the blur that leaves of the second wave across a picture what a spread of the given variance leaves
 // of it: exp(-2 pi^2 blur) = 1 / (1 + 2 pi^2 spread). The same for small ones.
 float ltc_outlined(float spread)
@@ -1601,7 +2086,9 @@ float ltc_outlined(float spread)
     float x = (19.739208 * spread);
     return (((x < 0.001) ? (x - ((0.5 * x) * x)) : (log2((1.0 + x)) * 0.6931472)) * 0.05066059);
 }
+#endif
 
+#if LTC_TEXTURED
 // The look-up from the unit vector `toward` the light; the heights (`rise`) of the sides u and v and of `toward`
 // over the cosine's horizon; the cross products v x corner, corner x u and u x v (`normal`); and the product
 // `offset` of the corner and the last one. Whatever these are, place is within 0 to 1, and all is finite.
@@ -1645,13 +2132,13 @@ LtcLookup ltc_lookup(float3 toward, float3 rise, float3 normal_u, float3 normal_
     float lean = ((LTC_LOOKUP_TILT * (1.0 - rise.z)) + (LTC_LOOKUP_EDGE_ON * (1.0 - cosine)));
     float blur = (0.9409 * max((1.0 - lean), 0.05));
     float aspect = (texels.x / texels.y);
-    float x_3 = ((blur * moment.x) * aspect);
+    float x_4 = ((blur * moment.x) * aspect);
     float y = (blur * moment.y);
     float z = ((blur * moment.z) / aspect);
-    float difference = (0.5 * (x_3 - z));
+    float difference = (0.5 * (x_4 - z));
     float square = ((difference * difference) + (y * y));
     float turn = (square * rsqrt(max(square, LTC_TINY)));
-    float longer = ((0.5 * (x_3 + z)) + turn);
+    float longer = ((0.5 * (x_4 + z)) + turn);
     const float _e170 = ltc_outlined(longer);
     const float _e176 = ltc_outlined((((blur * blur) * area) / max(longer, LTC_TINY)));
     float2 sides = float2(_e170, _e176);
@@ -1671,7 +2158,9 @@ LtcLookup ltc_lookup(float3 toward, float3 rise, float3 normal_u, float3 normal_
     const LtcLookup ltclookup = _e261;
     return ltclookup;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // The look-up for a lobe on the rectangle of the corners `a`, `b` and `d`; `toward` is the vector form factor
 // in the lobe's space. See above for the other parameters.
 LtcLookup ltc_rectangle_lookup(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 d, float3 toward, float2 texels, bool pair)
@@ -1690,7 +2179,9 @@ LtcLookup ltc_rectangle_lookup(LtcSurface surface, LtcLobe lobe, float3 a, float
     const LtcLookup ltclookup = _e43;
     return ltclookup;
 }
+#endif
 
+#if LTC_TEXTURED
 // The look-up for diffuse light; `toward` is the vector form factor in the caller's space.
 LtcLookup ltc_rectangle_diffuse_lookup(LtcSurface surface, float3 a, float3 b, float3 d, float3 toward, float2 texels, bool pair)
 {
@@ -1700,19 +2191,23 @@ LtcLookup ltc_rectangle_diffuse_lookup(LtcSurface surface, float3 a, float3 b, f
     float3 edge_v = (((a * LTC_HEADROOM) - (d * LTC_HEADROOM)) * _e7);
     const float3 _e27 = ltc_direction(toward);
     float3 rise = float3(dot(surface.normal, edge_u), dot(surface.normal, edge_v), dot(surface.normal, _e27));
-    float3 normal_13 = cross(edge_u, edge_v);
-    const LtcLookup _e39 = ltc_lookup(_e27, rise, cross(edge_v, corner), cross(corner, edge_u), normal_13, dot(corner, normal_13), texels, pair);
+    float3 normal_15 = cross(edge_u, edge_v);
+    const LtcLookup _e39 = ltc_lookup(_e27, rise, cross(edge_v, corner), cross(corner, edge_u), normal_15, dot(corner, normal_15), texels, pair);
     const LtcLookup ltclookup = _e39;
     return ltclookup;
 }
+#endif
 
+#if LTC_TEXTURED
 // The picture's colour at a look-up with one sample.
 float4 ltc_texture_fetch(Texture2D<float4> picture, SamplerState picture_sampler, LtcLookup lookup)
 {
     float4 _e5 = picture.SampleLevel(picture_sampler, lookup.place, lookup.level);
     return _e5;
 }
+#endif
 
+#if LTC_TEXTURED
 // The picture's colour at a look-up with a pair of samples.
 float4 ltc_texture_fetch_pair(Texture2D<float4> picture, SamplerState picture_sampler, LtcLookup lookup)
 {
@@ -1720,7 +2215,9 @@ float4 ltc_texture_fetch_pair(Texture2D<float4> picture, SamplerState picture_sa
     float4 second = picture.SampleLevel(picture_sampler, (lookup.place - lookup.apart), lookup.level);
     return (0.5 * (first + second));
 }
+#endif
 
+#if LTC_CLEARCOAT || LTC_ROUGH_DIFFUSE || LTC_SHEEN
 // The same surface point and frame with another roughness, which is clamped as in ltc_surface: that of
 // a sheen, a coat or a diffuse part.
 LtcSurface ltc_surface_with_roughness(LtcSurface surface, float roughness_1)
@@ -1736,7 +2233,9 @@ LtcSurface ltc_surface_with_roughness(LtcSurface surface, float roughness_1)
     const LtcSurface ltcsurface = _e13;
     return ltcsurface;
 }
+#endif
 
+#if LTC_SHEEN
 // The lobe of a sheen of colour 1 from its texel (X, Z, W, albedo), with t the angle between normal
 // and view and r the surface's roughness, which is the sheen's:
 //     x = X      z = sin t Z / r
@@ -1753,7 +2252,9 @@ LtcLobe ltc_sheen_lobe(LtcSurface surface, float4 texel)
     const LtcLobe ltclobe = _e18;
     return ltclobe;
 }
+#endif
 
+#if LTC_SHEEN
 // ltc_sheen_lobe from the given layer of the table's texture array.
 LtcLobe ltc_sheen_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, SamplerState table_sampler, float table_size, int layer)
 {
@@ -1763,7 +2264,9 @@ LtcLobe ltc_sheen_lobe_from_table(LtcSurface surface, Texture2DArray<float4> tab
     const LtcLobe ltclobe = _e8;
     return ltclobe;
 }
+#endif
 
+#if LTC_SHEEN
 // Radiance of a surface under a sheen of `sheen_colour` (each channel 0 to 1): `base` is the radiance
 // without it, `value` the light's for the lobe `sheen`. Call it with the sum over all lights, or for
 // each of them. The base is dimmed alike in all channels, so that it keeps its hue.
@@ -1772,7 +2275,9 @@ float3 ltc_sheen_over(float3 base, LtcLobe sheen, float3 value, float3 sheen_col
     float strongest = max(max(sheen_colour.x, sheen_colour.y), sheen_colour.z);
     return ((base * max((1.0 - (strongest * sheen.albedo)), 0.0)) + (sheen_colour * value.y));
 }
+#endif
 
+#if LTC_ROUGH_DIFFUSE
 // The lobe of what a rough diffuse surface of colour 1 reflects at the first bounce, from its texel
 // (Y, Z, W, albedo), with t the angle between normal and view:
 //     x = 1            z = sin t Z
@@ -1788,7 +2293,9 @@ LtcLobe ltc_diffuse_lobe(LtcSurface surface, float4 texel)
     const LtcLobe ltclobe = _e12;
     return ltclobe;
 }
+#endif
 
+#if LTC_ROUGH_DIFFUSE
 // ltc_diffuse_lobe from the given layer of the table's texture array.
 LtcLobe ltc_diffuse_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, SamplerState table_sampler, float table_size, int layer)
 {
@@ -1798,7 +2305,9 @@ LtcLobe ltc_diffuse_lobe_from_table(LtcSurface surface, Texture2DArray<float4> t
     const LtcLobe ltclobe = _e8;
     return ltclobe;
 }
+#endif
 
+#if LTC_ROUGH_DIFFUSE
 // Reflected radiance of a rough diffuse surface of the given colour (each channel 0 to 1), from the
 // value (diffuse, lobe, -) of a light of unit radiance for ltc_diffuse_lobe's lobe. It takes the place
 // of colour times diffuse.
@@ -1816,7 +2325,9 @@ float3 ltc_rough_diffuse(LtcSurface surface, LtcLobe lobe, float3 value, float3 
     float3 later = (((colour * colour) * mean_albedo) / series);
     return ((colour * value.y) + (later * ((1.0 - lobe.albedo) * value.x)));
 }
+#endif
 
+#if LTC_CLEARCOAT
 // Share of the light that reaches the base below a clear coat: 1 - weight * (directional albedo of the
 // coat for this view). `coat` is the coat's lobe from ltc_lobe, `reflectance` its F0 (0.04 for the usual
 // index of 1.5), its F90 is 1; `weight` is the share of the surface that it covers, 0 to 1.
@@ -1824,7 +2335,9 @@ float ltc_coat_transmission(LtcLobe coat, float reflectance, float weight)
 {
     return clamp((1.0 - (weight * ((reflectance * (coat.albedo - coat.fresnel)) + coat.fresnel))), 0.0, 1.0);
 }
+#endif
 
+#if LTC_CLEARCOAT
 // Radiance of a surface under a clear coat: `base` is the radiance without it, `value` the light's for
 // the lobe `coat`. In light of the same radiance from everywhere a base that reflects all of it does so
 // under its coat, too, whatever that one's weight and roughness.
@@ -1834,7 +2347,9 @@ float3 ltc_coat_over(float3 base, LtcLobe coat, float3 value, float reflectance,
     const float _e12 = ltc_coat_transmission(coat, reflectance, weight);
     return ((base * _e12) + (gloss).xxx);
 }
+#endif
 
+#if LTC_ENERGY_COMPENSATION
 // Factor on the reflected radiance of a rough metal that makes up for the light which a single bounce
 // between its facets loses: 1 + F0 (1 / albedo - 1) (Turquin 2019, "Practical multiple scattering
 // compensation for microfacet models", after Kulla and Conty 2017). A white metal, F0 = 1, then
@@ -1843,7 +2358,9 @@ float3 ltc_energy_compensation(LtcLobe lobe, float3 normal_reflectance)
 {
     return ((1.0).xxx + (normal_reflectance * ((1.0 / max(lobe.albedo, LTC_ALBEDO_FLOOR)) - 1.0)));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // 1 - E for an imaginary angle: 1 - w / sinh w from k = cosh w - 1, not negative. The error is below 2e-7.
 // The coefficients are the minimax fit `softbox::fit::fit_hyperbolic_excess` of degree 5; the logarithm's
 // argument is at least 3.7, where WGSL guarantees it to 3 ULP.
@@ -1858,7 +2375,9 @@ float ltc_hyperbolic_deficit(float k)
     float inverse_sine = rsqrt(square);
     return (1.0 - (log(((bounded + 1.0) + (square * inverse_sine))) * inverse_sine));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // Cosine and sine of the angle by which to turn the first of two conjugate semi-axes to the longer axis of their
 // ellipse: half the angle of the vector (`difference`, `product`) of half the difference of their squares and
 // their scalar product.
@@ -1875,18 +2394,20 @@ float2 ltc_half_turn(float difference, float product)
     float small = ((0.5 * sine) * inverse_large);
     return ((difference >= 0.0) ? float2(large, small) : float2(small, large));
 }
+#endif
 
+#if LTC_DISK || LTC_SPHERE
 // The plane with the unit vector `normal` as it cuts the ellipse with the semi-axes `half_x` and `half_y` times
 // `size` around `centre`.
-LtcCut ltc_cut(float3 normal_8, float3 half_x, float3 half_y, float size, float3 centre)
+LtcCut ltc_cut(float3 normal_9, float3 half_x, float3 half_y, float size, float3 centre)
 {
     LtcCut cut = (LtcCut)0;
 
-    float2 slope = float2(dot(normal_8, half_x), dot(normal_8, half_y));
+    float2 slope = float2(dot(normal_9, half_x), dot(normal_9, half_y));
     float square = dot(slope, slope);
     float inverse_slope = rsqrt(max(square, LTC_TINY));
-    cut.normal = normal_8;
-    cut.height = dot(normal_8, centre);
+    cut.normal = normal_9;
+    cut.height = dot(normal_9, centre);
     cut.toward = (slope * inverse_slope);
     cut.steepness = ((size * square) * inverse_slope);
     float _e23 = cut.height;
@@ -1902,12 +2423,14 @@ LtcCut ltc_cut(float3 normal_8, float3 half_x, float3 half_y, float size, float3
     float _e59 = cut.toward.y;
     float _e63 = cut.toward.x;
     float3 along = (((half_x * _e59) - (half_y * _e63)) * size);
-    cut.moment = max(dot(normal_8, cross(middle, along)), 0.0);
+    cut.moment = max(dot(normal_9, cross(middle, along)), 0.0);
     LtcCut _e72 = cut;
     const LtcCut ltccut = _e72;
     return ltccut;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
 // of whose roots are real.
 float ltc_cone_step(float x, float quadratic, float linear_, float absolute)
@@ -1919,7 +2442,9 @@ float ltc_cone_step(float x, float quadratic, float linear_, float absolute)
     float root = (under * rsqrt(max(under, LTC_TINY)));
     return (x - ((3.0 * value) / max((slope + root), LTC_TINY)));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The cone over the ellipse with the semi-axes `half_x` and `half_y` times `size` around `centre`. `normal` is the
 // cross product of the two, `volume` its scalar product with the centre, which must not be negative.
 LtcCone ltc_cone(float3 half_x_1, float3 half_y_1, float size, float3 centre_1, float3 normal, float volume)
@@ -2017,25 +2542,33 @@ LtcCone ltc_cone(float3 half_x_1, float3 half_y_1, float size, float3 centre_1, 
     const LtcCone ltccone = _e285;
     return ltccone;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // `v` in the cone's frame.
 float3 ltc_cone_inward(LtcCone cone, float3 v)
 {
     return float3(dot(cone.first, v), dot(cone.second, v), dot(cone.third, v));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // `v`, given in the cone's frame, in the space that the cone is in.
 float3 ltc_cone_outward(LtcCone cone, float3 v)
 {
     return (((cone.first * v.x) + (cone.second * v.y)) + (cone.third * v.z));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The point of the ellipse's plane at `p`, in units of the semi-axes given.
 float3 ltc_cone_point(LtcCone cone, float2 p)
 {
     return ((cone.centre + (cone.half_x * p.x)) + (cone.half_y * p.y));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // Cosine between the cone's axis and a plane's normal.
 float ltc_cone_tilt(LtcCone cone, LtcCut cut)
 {
@@ -2044,7 +2577,9 @@ float ltc_cone_tilt(LtcCone cone, LtcCut cut)
     const float3 _e21 = ltc_cone_inward(cone, cut.normal);
     return ((cone.first_square < 0.06) ? distant : dot(cone.axis, _e21));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The axes across a cone. With W = diag(a^2 + m, b^2 + m, m), D + m = W^1/2 (1 - g g^T) W^1/2 for the unit vector
 // g = W^-1/2 c, so the remaining eigenvalues are those of diag(a^2, b^2, 0) restricted to the plane across g: a
 // matrix of two by two whose entries are sums of positive terms.
@@ -2067,8 +2602,8 @@ LtcAcross ltc_cone_across(LtcCone cone)
     float scale = (1.0 / max((u_square + v_square), LTC_TINY));
     const float2 _e95 = ltc_half_turn(((0.5 * scale) * (u_square - v_square)), (scale * product));
     float3 wide = ((u * _e95.x) + (v * _e95.y));
-    float3 first_3 = ((wide * w) * inverse_root);
-    across.first = (first_3 * rsqrt(max(dot(first_3, first_3), LTC_TINY)));
+    float3 first_4 = ((wide * w) * inverse_root);
+    across.first = (first_4 * rsqrt(max(dot(first_4, first_4), LTC_TINY)));
     across.first_value = (((a_square * wide.x) * wide.x) + ((b_square * wide.y) * wide.y));
     float3 _e123 = across.first;
     across.second = cross(cone.axis, _e123);
@@ -2079,7 +2614,9 @@ LtcAcross ltc_cone_across(LtcCone cone)
     const LtcAcross ltcacross = _e139;
     return ltcacross;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The integral along an arc, less a vector along `normal` whose length is the sine below and of which `rest` gives
 // back a part; components along the axes across the cone and its own. The arc's chord spans the plane with the unit
 // vector `normal` (components along the same axes), `sine` is the sine of the angle between its ends, `k` that
@@ -2095,19 +2632,21 @@ float3 ltc_cone_sweep(LtcCone cone, LtcAcross across, float3 normal, float sine,
     second = ((rest - (sine * _e25)) * normal.y);
     if ((second_k > 1.0)) {
         float factor_square = (((across.first_value - across.second_value) * (cone.depth + across.second_value)) / max((cone.depth * across.first_value), LTC_TINY));
-        float lesser = (sine * abs(normal.y));
-        float angle = max(((LTC_PI * rsqrt(max(factor_square, LTC_TINY))) - (lesser * (1.0 + _e25))), 0.0);
+        float lesser_1 = (sine * abs(normal.y));
+        float angle = max(((LTC_PI * rsqrt(max(factor_square, LTC_TINY))) - (lesser_1 * (1.0 + _e25))), 0.0);
         second = (((rest + sine) * normal.y) - ((normal.y < 0.0) ? -(angle) : angle));
     }
     float axis_k = min((k + (ratio * cone.depth)), 2.0);
-    float lesser_1 = min((sine * abs(normal.z)), cone.whole);
+    float lesser_2 = min((sine * abs(normal.z)), cone.whole);
     const float _e82 = ltc_angle_excess(min(axis_k, (2.0 - axis_k)));
-    float acute = (lesser_1 + (lesser_1 * _e82));
+    float acute = (lesser_2 + (lesser_2 * _e82));
     float part = ((axis_k > 1.0) ? ((LTC_PI * cone.whole) - acute) : acute);
     float _e94 = second;
     return float3((first * normal.x), _e94, (large ? ((6.2831855 * cone.whole) - part) : part));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // Vector form factor, times 2 pi, of the part of a cone on the side of a plane that counts; in w its component along
 // the plane's normal, which has more digits for a distant light.
 float4 ltc_cone_part(LtcCone cone, LtcAcross across, LtcCut cut)
@@ -2130,20 +2669,24 @@ float4 ltc_cone_part(LtcCone cone, LtcAcross across, LtcCut cut)
     float rest = ((k > 1.0) ? ((LTC_PI - (2.0 * sine)) - excess) : excess);
     const float _e70 = ltc_cone_tilt(cone, cut);
     const float3 _e72 = ltc_cone_inward(cone, cut.normal);
-    float3 normal_14 = float3(dot(_e72, across.first), dot(_e72, across.second), _e70);
-    const float3 _e86 = ltc_cone_sweep(cone, across, normal_14, sine, k, (((2.0 * cut.reach) * cut.reach) * both), (_e70 >= 0.0), rest);
+    float3 normal_16 = float3(dot(_e72, across.first), dot(_e72, across.second), _e70);
+    const float3 _e86 = ltc_cone_sweep(cone, across, normal_16, sine, k, (((2.0 * cut.reach) * cut.reach) * both), (_e70 >= 0.0), rest);
     float3 sum = float3(_e86.xy, (_e86.z + (_e70 * (rest + sine))));
     float3 turned = (((across.first * sum.x) + (across.second * sum.y)) + (cone.axis * sum.z));
     const float3 _e104 = ltc_cone_outward(cone, turned);
-    return float4(_e104, dot(normal_14, sum));
+    return float4(_e104, dot(normal_16, sum));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The point of a plane's chord at `s` from its middle, in the circle's plane.
 float2 ltc_cut_point(LtcCut cut, float s)
 {
     return ((cut.toward * cut.offset) + (float2(cut.toward.y, -(cut.toward.x)) * s));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The edge integral of the part of a plane's chord between two points of the circle's plane.
 float3 ltc_cone_chord(LtcCone cone, LtcCut cut, float2 start, float2 end)
 {
@@ -2157,7 +2700,9 @@ float3 ltc_cone_chord(LtcCone cone, LtcCut cut, float2 start, float2 end)
     const float _e31 = ltc_angle((_e4 * a_inverse), (_e5 * b_inverse), sine);
     return (cut.normal * _e31);
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The integral along the arc between two points of the circle, counter-clockwise. `nearly_full` tells an arc of all
 // but the whole circle from one of next to nothing.
 float3 ltc_cone_arc(LtcCone cone, LtcAcross across, float2 start, float2 end, bool nearly_full)
@@ -2181,7 +2726,9 @@ float3 ltc_cone_arc(LtcCone cone, LtcAcross across, float2 start, float2 end, bo
     const float3 _e71 = ltc_cone_outward(cone, (((across.first * _e59.x) + (across.second * _e59.y)) + (cone.axis * _e59.z)));
     return _e71;
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // Vector form factor, times 2 pi, of the part of a cone on the sides of two planes that count, where the chords of
 // the two cross.
 float3 ltc_cone_between(LtcCone cone, LtcAcross across, LtcCut a, LtcCut b)
@@ -2199,7 +2746,9 @@ float3 ltc_cone_between(LtcCone cone, LtcAcross across, LtcCut a, LtcCut b)
     const float3 _e61 = ltc_cone_arc(cone, across, (turned ? _e47 : _e42), (turned ? _e42 : _e47), ((a.offset + b.offset) < -1.0));
     return ((_e50 + _e53) + _e61);
 }
+#endif
 
+#if LTC_DISK
 // Places an elliptical disk over a surface; see ltc_disk.
 LtcDisk ltc_disk_begin(LtcSurface surface, float3 centre_2, float3 half_x_2, float3 half_y_2, bool two_sided)
 {
@@ -2216,15 +2765,15 @@ LtcDisk ltc_disk_begin(LtcSurface surface, float3 centre_2, float3 half_x_2, flo
     float shrink = (1.0 / max(width, LTC_TINY));
     float3 x = (x_far * shrink);
     float3 y = (y_far * shrink);
-    float3 normal_16 = cross(x, y);
+    float3 normal_18 = cross(x, y);
     disk.centre = (away * scale);
     disk.size = (width * scale);
     float3 _e37 = disk.centre;
-    float volume_2 = dot(normal_16, _e37);
+    float volume_2 = dot(normal_18, _e37);
     bool front = (volume_2 < 0.0);
     disk.half_x = (front ? y : x);
     disk.half_y = (front ? x : y);
-    disk.normal = (front ? -(normal_16) : normal_16);
+    disk.normal = (front ? -(normal_18) : normal_18);
     disk.volume = abs(volume_2);
     float3 _e53 = disk.half_x;
     float3 _e55 = disk.half_y;
@@ -2234,13 +2783,15 @@ LtcDisk ltc_disk_begin(LtcSurface surface, float3 centre_2, float3 half_x_2, flo
     disk.cut = _e60;
     float _e64 = disk.cut.offset;
     disk.clipped = (_e64 > -1.0);
-    float _e74 = disk.cut.offset;
-    disk.reaches = ((front | (two_sided & (volume_2 > 0.0))) & (_e74 < 1.0));
-    LtcDisk _e78 = disk;
-    const LtcDisk ltcdisk = _e78;
+    float _e76 = disk.cut.offset;
+    disk.reaches = ((front | ((two_sided & ltc_use_two_sided) & (volume_2 > 0.0))) & (_e76 < 1.0));
+    LtcDisk _e80 = disk;
+    const LtcDisk ltcdisk = _e80;
     return ltcdisk;
 }
+#endif
 
+#if LTC_DISK
 // The form factor of a disk, 0 to 1.
 float ltc_disk_diffuse(LtcDisk disk)
 {
@@ -2260,7 +2811,9 @@ float ltc_disk_diffuse(LtcDisk disk)
     float _e23 = value;
     return saturate(_e23);
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The vector form factor of a disk in a lobe's space, cut at both horizons, towards the light.
 float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
 {
@@ -2339,7 +2892,9 @@ float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
     float _e147 = sum.z;
     return float3(_e144.xy, max(_e147, 0.0));
 }
+#endif
 
+#if LTC_DISK
 // The value (diffuse, specular, fresnel) of an elliptical disk light around `centre` with the semi-axes `half_x` and
 // `half_y`, any two conjugate half-diameters. It emits to the side of their cross product (to both with `two_sided`).
 //
@@ -2348,16 +2903,26 @@ float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
 // closely, 6e-7 times the ratio of the disk's size to that distance takes the place of 1e-6.
 float3 ltc_disk(LtcSurface surface, LtcLobe lobe, float3 centre, float3 half_x, float3 half_y, bool two_sided)
 {
+    float3 toward = (0.0).xxx;
+
     const LtcDisk _e6 = ltc_disk_begin(surface, centre, half_x, half_y, two_sided);
     if (!(_e6.reaches)) {
         return (0.0).xxx;
     }
-    const float _e11 = ltc_disk_diffuse(_e6);
-    const float3 _e12 = ltc_disk_lobe(_e6, lobe);
-    const float3 _e13 = ltc_value(surface, lobe, _e11, _e12);
-    return _e13;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e15 = ltc_disk_lobe(_e6, lobe);
+        toward = _e15;
+    }
+#endif
+    const float _e16 = ltc_disk_diffuse(_e6);
+    float3 _e17 = toward;
+    const float3 _e18 = ltc_value(surface, lobe, _e16, _e17);
+    return _e18;
 }
+#endif
 
+#if LTC_SPHERE
 // Places a sphere over a surface; see ltc_sphere.
 LtcSphere ltc_sphere_begin(LtcSurface surface, float3 centre_4, float radius)
 {
@@ -2403,7 +2968,9 @@ LtcSphere ltc_sphere_begin(LtcSurface surface, float3 centre_4, float radius)
     const LtcSphere ltcsphere = _e113;
     return ltcsphere;
 }
+#endif
 
+#if LTC_SPHERE
 // The form factor of a sphere, 0 to 1: ltc_cone_part for a circular cone, whose centre has the height `tilt` over the
 // horizon (the integral of Snyder 1996, "Area Light Sources for Real-Time Graphics", without its differences of
 // nearly equal angles).
@@ -2413,28 +2980,17 @@ float ltc_sphere_diffuse(LtcSphere sphere)
 
     LtcDisk disk_4 = sphere.disk;
     float tilt = dot(disk_4.cut.normal, disk_4.normal);
-    float whole = (disk_4.size * disk_4.size);
-    value = (whole * tilt);
+    value = ((disk_4.size * disk_4.size) * tilt);
     if (disk_4.clipped) {
-        float half_chord = (disk_4.size * disk_4.cut.reach);
-        float k = ((2.0 * half_chord) * half_chord);
-        float under = max((1.0 - (half_chord * half_chord)), 0.0);
-        float sine = ((2.0 * half_chord) * (under * rsqrt(max(under, LTC_TINY))));
-        const float _e34 = ltc_angle_excess(min(k, (2.0 - k)));
-        float excess = (sine * _e34);
-        float rest = ((k > 1.0) ? ((LTC_PI - (2.0 * sine)) - excess) : excess);
-        float around_k = ((2.0 * disk_4.cut.reach) * disk_4.cut.reach);
-        float lesser = ((2.0 * disk_4.cut.reach) * abs(disk_4.cut.offset));
-        const float _e64 = ltc_angle_excess(max(min(around_k, (2.0 - around_k)), 0.0));
-        float acute = (lesser + (lesser * _e64));
-        float part = ((around_k > 1.0) ? (LTC_PI - acute) : acute);
-        float angle = ((tilt < 0.0) ? part : (6.2831855 - part));
-        value = ((rest + (tilt * ((sine * tilt) + (whole * angle)))) * LTC_OVER_TWO_PI);
+        const float _e17 = ltc_cap(disk_4.size, tilt, disk_4.cut.offset, disk_4.cut.reach);
+        value = _e17;
     }
-    float _e84 = value;
-    return (sphere.inside ? 1.0 : (disk_4.reaches ? saturate(_e84) : 0.0));
+    float _e18 = value;
+    return (sphere.inside ? 1.0 : (disk_4.reaches ? saturate(_e18) : 0.0));
 }
+#endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The vector form factor of a sphere in a lobe's space, cut at both horizons, towards the light. A sphere around
 // the surface point covers the whole lobe, evenly.
 float3 ltc_sphere_lobe(LtcSphere sphere, LtcLobe lobe)
@@ -2445,7 +3001,9 @@ float3 ltc_sphere_lobe(LtcSphere sphere, LtcLobe lobe)
     const float3 _e8 = ltc_disk_lobe(sphere.disk, lobe);
     return _e8;
 }
+#endif
 
+#if LTC_SPHERE
 // The value (diffuse, specular, fresnel) of a sphere light, which emits outwards, and inwards to a surface point
 // that it contains.
 //
@@ -2454,14 +3012,802 @@ float3 ltc_sphere_lobe(LtcSphere sphere, LtcLobe lobe)
 // of 1e-6: so much does the rounding of that distance move the sphere's outline.
 float3 ltc_sphere(LtcSurface surface, LtcLobe lobe, float3 centre, float radius)
 {
+    float3 toward = (0.0).xxx;
+
     const LtcSphere _e4 = ltc_sphere_begin(surface, centre, radius);
     if (!(_e4.disk.reaches)) {
         return (0.0).xxx;
     }
-    const float _e10 = ltc_sphere_diffuse(_e4);
-    const float3 _e11 = ltc_sphere_lobe(_e4, lobe);
-    const float3 _e12 = ltc_value(surface, lobe, _e10, _e11);
-    return _e12;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e14 = ltc_sphere_lobe(_e4, lobe);
+        toward = _e14;
+    }
+#endif
+    const float _e15 = ltc_sphere_diffuse(_e4);
+    float3 _e16 = toward;
+    const float3 _e17 = ltc_value(surface, lobe, _e15, _e16);
+    return _e17;
 }
+#endif
+
+#if LTC_ANISOTROPIC
+// The square root of `x`, 0 or more, without WGSL's sqrt(0), which has no accuracy guarantee.
+float ltc_anisotropic_root(float x)
+{
+    return (x * rsqrt(max(x, LTC_TINY)));
+}
+#endif
+
+#if LTC_ANISOTROPIC
+// Alpha along the tangent and across it, from a perceptual `roughness` and an `anisotropy` of 0 to 1 (both are
+// clamped). The ratio of the two is 1 / (1 - 0.9 anisotropy), 1 to 10, and their geometric mean
+// roughness^2 (Burley 2012), except that neither exceeds 1.
+float2 ltc_anisotropic_alpha(float roughness, float anisotropy)
+{
+    float clamped = clamp(roughness, 0.0, 1.0);
+    float ratio = (1.0 - (0.9 * clamp(anisotropy, 0.0, 1.0)));
+    float stretch = rsqrt(ratio);
+    return float2(min(((clamped * clamped) * stretch), 1.0), (((clamped * clamped) * ratio) * stretch));
+}
+#endif
+
+#if LTC_ANISOTROPIC
+// The anisotropy of a surface point with `alpha_x` along `tangent` and `alpha_y` across it. Either may be the larger;
+// both are clamped to LTC_ALPHA_FLOOR and 1. The table holds ratios up to 10, beyond which the correction stays
+// that of 10. `tangent` need not be unit nor perpendicular to the normal; where it is zero or along the
+// normal, the view's azimuth takes its place. The roughness of `surface` has no effect.
+LtcAnisotropy ltc_anisotropy(LtcSurface surface, float3 tangent, float alpha_x, float alpha_y)
+{
+    LtcAnisotropy anisotropy = (LtcAnisotropy)0;
+
+    const float3 _e4 = ltc_direction(tangent);
+    float3 flat_part = (_e4 - (surface.normal * dot(surface.normal, _e4)));
+    float3 fallback = surface.tangent;
+    const float3 _e15 = ltc_direction(((dot(flat_part, flat_part) > 1e-8) ? flat_part : fallback));
+    float3 across = cross(surface.normal, _e15);
+    float bounded_x = clamp(alpha_x, LTC_ALPHA_FLOOR, 1.0);
+    float bounded_y = clamp(alpha_y, LTC_ALPHA_FLOOR, 1.0);
+    bool swapped = (bounded_y > bounded_x);
+    float3 major = (swapped ? across : _e15);
+    float3 minor = (swapped ? _e15 : across);
+    float cos_major = dot(surface.tangent, major);
+    float cos_minor = dot(surface.tangent, minor);
+    bool back_major = (cos_major < 0.0);
+    bool back_minor = (cos_minor < 0.0);
+    anisotropy.major = (back_major ? -(major) : major);
+    anisotropy.alpha_major = max(bounded_x, bounded_y);
+    anisotropy.minor = (back_minor ? -(minor) : minor);
+    anisotropy.alpha_minor = min(bounded_x, bounded_y);
+    anisotropy.view_major = (surface.sin_view * abs(cos_major));
+    anisotropy.view_minor = (surface.sin_view * abs(cos_minor));
+    float _e55 = anisotropy.alpha_major;
+    float _e57 = anisotropy.view_major;
+    float wide = (_e55 * _e57);
+    float _e60 = anisotropy.alpha_minor;
+    float _e62 = anisotropy.view_minor;
+    float narrow = (_e60 * _e62);
+    float _e65 = anisotropy.alpha_major;
+    float _e67 = anisotropy.alpha_minor;
+    float upright = (((_e65 * _e67) * surface.cos_view) * surface.cos_view);
+    const float _e77 = ltc_anisotropic_root((((wide * wide) + (narrow * narrow)) + upright));
+    float _e80 = anisotropy.alpha_minor;
+    float _e82 = anisotropy.alpha_major;
+    anisotropy.alpha_round = clamp(_e77, _e80, _e82);
+    anisotropy.handedness = (((swapped != back_major) != back_minor) ? -1.0 : 1.0);
+    LtcAnisotropy _e90 = anisotropy;
+    const LtcAnisotropy ltcanisotropy = _e90;
+    return ltcanisotropy;
+}
+#endif
+
+#if LTC_ANISOTROPIC
+// The isotropic surface whose lobe is stretched: where to sample the isotropic table.
+LtcSurface ltc_anisotropic_round(LtcSurface surface, LtcAnisotropy anisotropy)
+{
+    LtcSurface isotropic = (LtcSurface)0;
+
+    isotropic = surface;
+    const float _e5 = ltc_anisotropic_root(anisotropy.alpha_round);
+    isotropic.roughness = _e5;
+    isotropic.alpha = anisotropy.alpha_round;
+    LtcSurface _e8 = isotropic;
+    const LtcSurface ltcsurface = _e8;
+    return ltcsurface;
+}
+#endif
+
+#if LTC_ANISOTROPIC
+// The four coordinates of a lobe in the anisotropic table, each 0 to 1.
+//
+// GGX of any alpha is GGX of alpha = 1 on a surface that is stretched along its normal, and less along the one axis
+// than along the other; there the view has another direction. Along that one's angle t from the normal lobes of all
+// alphas change alike, where along the view's own sharp ones would change next to the horizon alone.
+// x: root of the larger alpha. y: 1.8 h / (h + 0.8) for h = tan(t / 2), finer next to the normal, where most views
+// lie. z: (1 + sin p - cos p) / 2 for the view's azimuth p from the major direction, nearly proportional to p. w: 1
+// less the root of the ratio of the alphas, scaled to 1 at a ratio of 1 / 10.
+float4 ltc_anisotropic_coordinates(LtcSurface surface, LtcAnisotropy anisotropy)
+{
+    float wide = (anisotropy.alpha_major * anisotropy.view_major);
+    float narrow = (anisotropy.alpha_minor * anisotropy.view_minor);
+    float tangential = ((wide * wide) + (narrow * narrow));
+    const float _e15 = ltc_anisotropic_root((tangential + (surface.cos_view * surface.cos_view)));
+    const float _e16 = ltc_anisotropic_root(tangential);
+    float bent = ((_e16 * 1.8) / max((_e16 + (LTC_ANISOTROPIC_KNEE * (_e15 + surface.cos_view))), LTC_TINY));
+    float aside = ((anisotropy.view_minor - anisotropy.view_major) / max(surface.sin_view, 1e-6));
+    float ratio = (anisotropy.alpha_minor / anisotropy.alpha_major);
+    const float _e38 = ltc_anisotropic_root(anisotropy.alpha_major);
+    const float _e43 = ltc_anisotropic_root(ratio);
+    float4 coordinates = float4(_e38, bent, (0.5 + (0.5 * aside)), ((1.0 - _e43) * 1.4624753));
+    return clamp(coordinates, (0.0).xxxx, (1.0).xxxx);
+}
+#endif
+
+#if LTC_ANISOTROPIC
+// The lobe of an anisotropic surface, from two texels of the isotropic table at
+// ltc_table_coordinates(ltc_anisotropic_round(surface, anisotropy)) and the two texels `first` and `second` of the
+// anisotropic table, which are zero for no correction.
+//
+// The stretch: GGX's visible normals are those of a hemisphere, a clamped cosine about the stretched view (Heitz
+// 2018; Dupuy and Benyoub 2023), scaled by the alphas. To first order about the middle h of the visible normals,
+// l = 2 (v.h) h - v leads from them to light; linear maps all, so their product is a lobe's matrix already.
+// It is so for the isotropic surface too. What that one's table says beyond the product is taken from there: the
+// lobe's matrix is the anisotropic stretch times the isotropic stretch's inverse times the isotropic lobe's matrix.
+// For equal alphas that is the isotropic lobe, for small ones the exact limit.
+//
+// The correction: added to the product of the last two, normalised by its last entry, in units of the lobe's width,
+// so that the table moves no sharp highlight. Of nine entries the scale and a turn about the lobe's axis mean
+// nothing, so the upper left block is symmetric and seven are left: `first` holds (1,1), (1,2), (2,2),
+// (1,3), `second` (2,3), (3,1), (3,2) and the relative change of albedo and Schlick part. All are multiplied by
+// the fourth coordinate, hence vanish for equal alphas. The symmetries used are those of Kt, Heitz, Dupuy and
+// Narayanan 2022, "Bringing Linearly Transformed Cosines to Anisotropic GGX"; the fit is
+// `softbox::fit::bake_anisotropic`.
+LtcLobe ltc_anisotropic_lobe(LtcSurface surface, LtcAnisotropy anisotropy, float4 shape, float4 amplitude, float4 first, float4 second)
+{
+    LtcLobe lobe = (LtcLobe)0;
+
+    float c = surface.cos_view;
+    float s = surface.sin_view;
+    float a = anisotropy.alpha_round;
+    float4 m = float4(((c * c) + (a * shape.x)), ((a * s) * shape.y), (s * (c + (a * shape.z))), (a * shape.w));
+    float round_tangential = (((a * s) * a) * s);
+    float round_inverse = rsqrt(max((round_tangential + (c * c)), LTC_TINY));
+    float round_slope = (((a * a) * s) * round_inverse);
+    float round_tilt = (round_tangential * round_inverse);
+    float round_height = (round_tilt + c);
+    float round_lift = (0.5 + ((0.5 * round_slope) * round_slope));
+    float rise = (s - (c * round_slope));
+    float reach = ((s * (round_lift - 1.0)) - (round_tilt * round_slope));
+    float scale = (1.0 / max((a * ((rise * m.z) + (round_height * m.x))), 1e-12));
+    float along_along = ((((c * round_lift) * m.w) + (reach * m.y)) * scale);
+    float along_up = (-((((c * round_lift) * m.z) + (reach * m.x))) * scale);
+    float up_along = ((-(((rise * m.w) + (round_height * m.y))) * a) * scale);
+    float across_across = ((((m.x * m.w) - (m.y * m.z)) * scale) * ((c * round_lift) - ((reach * rise) / max(round_height, LTC_TINY))));
+    float view_x = anisotropy.view_major;
+    float view_y = anisotropy.view_minor;
+    float wide = (anisotropy.alpha_major * view_x);
+    float narrow = (anisotropy.alpha_minor * view_y);
+    float tangential = ((wide * wide) + (narrow * narrow));
+    float2 azimuth = (float2(wide, narrow) * rsqrt(max(tangential, 1e-30)));
+    float difference = (along_along - across_across);
+    float ratio = (anisotropy.alpha_minor / anisotropy.alpha_major);
+    const float _e114 = ltc_anisotropic_root(ratio);
+    float depth = clamp(((1.0 - _e114) * 1.4624753), 0.0, 1.0);
+    float e_xx = ((across_across + ((difference * azimuth.x) * azimuth.x)) + (depth * first.x));
+    float e_xy = (((difference * azimuth.x) * azimuth.y) + (depth * first.y));
+    float e_yy = ((across_across + ((difference * azimuth.y) * azimuth.y)) + (depth * first.z));
+    float e_xz = ((along_up * azimuth.x) + (depth * first.w));
+    float e_yz = ((along_up * azimuth.y) + (depth * second.x));
+    float e_zx = ((up_along * azimuth.x) + (depth * second.y));
+    float e_zy = ((up_along * azimuth.y) + (depth * second.z));
+    float inverse_length = rsqrt(max((tangential + (c * c)), LTC_TINY));
+    float slope_x = ((anisotropy.alpha_major * wide) * inverse_length);
+    float slope_y = ((anisotropy.alpha_minor * narrow) * inverse_length);
+    float tilt = (tangential * inverse_length);
+    float lift = (0.5 + (0.5 * ((slope_x * slope_x) + (slope_y * slope_y))));
+    float turn = ((view_x * slope_y) - (view_y * slope_x));
+    float3 normal_19 = surface.normal;
+    float3 x_6 = ((((anisotropy.major * (tilt + c)) + (anisotropy.minor * turn)) + (normal_19 * (view_x - (c * slope_x)))) * anisotropy.alpha_major);
+    float3 y_2 = ((((anisotropy.minor * (tilt + c)) - (anisotropy.major * turn)) + (normal_19 * (view_y - (c * slope_y)))) * anisotropy.alpha_minor);
+    float3 z_1 = (((anisotropy.major * ((view_x * (lift - 1.0)) - (tilt * slope_x))) + (anisotropy.minor * ((view_y * (lift - 1.0)) - (tilt * slope_y)))) + (normal_19 * (c * lift)));
+    float3 m_x = (((x_6 * e_xx) + (y_2 * e_xy)) + (z_1 * e_zx));
+    float3 m_y = ((((x_6 * e_xy) + (y_2 * e_yy)) + (z_1 * e_zy)) * anisotropy.handedness);
+    float3 m_z = (((x_6 * e_xz) + (y_2 * e_yz)) + z_1);
+    float3 middle = cross(m_z, m_x);
+    float unit_scale = rsqrt(max(dot(middle, middle), LTC_TINY));
+    float3 heights = float3(dot(normal_19, m_x), dot(normal_19, m_y), dot(normal_19, m_z));
+    float brightness = (1.0 + (depth * second.w));
+    lobe.axis_x = (cross(m_y, m_z) * unit_scale);
+    lobe.albedo = clamp((amplitude.x * brightness), 0.0, 1.0);
+    lobe.axis_y = (middle * unit_scale);
+    lobe.fresnel = clamp((amplitude.y * brightness), 0.0, 1.0);
+    lobe.axis_z = (cross(m_x, m_y) * unit_scale);
+    lobe.share = (0.5 + ((0.5 * heights.z) * rsqrt(max(dot(heights, heights), LTC_TINY))));
+    float3 _e292 = lobe.axis_y;
+    float volume = (unit_scale * dot(m_y, _e292));
+    lobe.normal_x = (m_x * volume);
+    lobe.normal_y = (m_y * volume);
+    lobe.normal_z = (m_z * volume);
+    LtcLobe _e301 = lobe;
+    const LtcLobe ltclobe = _e301;
+    return ltclobe;
+}
+#endif
+
+#if LTC_ANISOTROPIC
+// The lobe of an anisotropic surface from the isotropic table alone: 2 samples of layers 0 and 1, as
+// ltc_lobe_from_table takes them.
+LtcLobe ltc_stretched_lobe_from_table(LtcSurface surface, LtcAnisotropy anisotropy, Texture2DArray<float4> table, SamplerState table_sampler, float table_size)
+{
+    const LtcSurface _e5 = ltc_anisotropic_round(surface, anisotropy);
+    const float2 _e6 = ltc_table_coordinates(_e5, table_size);
+    float4 shape = table.SampleLevel(table_sampler, float3(_e6, int(0)), 0.0);
+    float4 amplitude = table.SampleLevel(table_sampler, float3(_e6, int(1)), 0.0);
+    const LtcLobe _e17 = ltc_anisotropic_lobe(surface, anisotropy, shape, amplitude, (0.0).xxxx, (0.0).xxxx);
+    const LtcLobe ltclobe = _e17;
+    return ltclobe;
+}
+#endif
+
+#if LTC_ANISOTROPIC
+// The lobe of an anisotropic surface from the table's texture array, of which the layers `first_layer` and the next
+// hold the anisotropic table: 2 samples of layers 0 and 1, and 8 of these. `table_size` is the texels along
+// each side of a layer, 64 or more; the sampler filters linearly.
+//
+// Tiles of 8 x 8 texels fill the first 64 x 64: the first two coordinates run within a tile, from the first texel's
+// centre to the last one's, so that filtering never reaches the next tile; the others run from tile to tile.
+LtcLobe ltc_anisotropic_lobe_from_table(LtcSurface surface, LtcAnisotropy anisotropy, Texture2DArray<float4> table, SamplerState table_sampler, float table_size, int first_layer)
+{
+    const LtcSurface _e6 = ltc_anisotropic_round(surface, anisotropy);
+    const float2 _e7 = ltc_table_coordinates(_e6, table_size);
+    float4 shape = table.SampleLevel(table_sampler, float3(_e7, int(0)), 0.0);
+    float4 amplitude = table.SampleLevel(table_sampler, float3(_e7, int(1)), 0.0);
+    const float4 _e14 = ltc_anisotropic_coordinates(surface, anisotropy);
+    float4 position = (_e14 * 7.0);
+    float2 tile = min(floor(position.zw), (6.0).xx);
+    float2 between = (position.zw - tile);
+    float next = (LTC_ANISOTROPIC_SIZE / table_size);
+    float2 upper_left = ((((tile * LTC_ANISOTROPIC_SIZE) + position.xy) + (0.5).xx) / (table_size).xx);
+    float2 upper_right = (upper_left + float2(next, 0.0));
+    float2 lower_left = (upper_left + float2(0.0, next));
+    float2 lower_right = (upper_left + float2(next, next));
+    float4 _e44 = table.SampleLevel(table_sampler, float3(upper_left, first_layer), 0.0);
+    float4 _e46 = table.SampleLevel(table_sampler, float3(upper_right, first_layer), 0.0);
+    float4 upper_first = lerp(_e44, _e46, (between.x).xxxx);
+    float4 _e51 = table.SampleLevel(table_sampler, float3(lower_left, first_layer), 0.0);
+    float4 _e53 = table.SampleLevel(table_sampler, float3(lower_right, first_layer), 0.0);
+    float4 lower_first = lerp(_e51, _e53, (between.x).xxxx);
+    float4 _e60 = table.SampleLevel(table_sampler, float3(upper_left, asint(asuint(first_layer) + asuint(int(1)))), 0.0);
+    float4 _e64 = table.SampleLevel(table_sampler, float3(upper_right, asint(asuint(first_layer) + asuint(int(1)))), 0.0);
+    float4 upper_second = lerp(_e60, _e64, (between.x).xxxx);
+    float4 _e71 = table.SampleLevel(table_sampler, float3(lower_left, asint(asuint(first_layer) + asuint(int(1)))), 0.0);
+    float4 _e75 = table.SampleLevel(table_sampler, float3(lower_right, asint(asuint(first_layer) + asuint(int(1)))), 0.0);
+    float4 lower_second = lerp(_e71, _e75, (between.x).xxxx);
+    float4 first = lerp(upper_first, lower_first, (between.y).xxxx);
+    float4 second = lerp(upper_second, lower_second, (between.y).xxxx);
+    const LtcLobe _e85 = ltc_anisotropic_lobe(surface, anisotropy, shape, amplitude, first, second);
+    const LtcLobe ltclobe = _e85;
+    return ltclobe;
+}
+#endif
+
+// A material of a diffuse and a specular part and nothing else; F90 is 1.
+LtcMaterial ltc_material(float3 base_colour, float roughness_3, float3 normal_reflectance_2)
+{
+    LtcMaterial material = (LtcMaterial)0;
+
+    material.base_colour = base_colour;
+    material.roughness = roughness_3;
+    material.normal_reflectance = normal_reflectance_2;
+    material.diffuse_roughness = 0.0;
+    material.grazing_reflectance = (1.0).xxx;
+    material.coat = 0.0;
+    material.sheen_colour = (0.0).xxx;
+    material.sheen_roughness = 0.5;
+    material.grain = (0.0).xxx;
+    material.anisotropy = 0.0;
+    material.coat_roughness = 0.1;
+    material.coat_reflectance = 0.04;
+    LtcMaterial _e28 = material;
+    const LtcMaterial ltcmaterial = _e28;
+    return ltcmaterial;
+}
+
+// The lobes of a surface point. `normal` and `view` are as for ltc_surface, the table as for ltc_lobe_from_table,
+// with the layers of the effects that are on.
+LtcShading ltc_shading(float3 position, float3 normal, float3 view, LtcMaterial material, LtcLayers layers, Texture2DArray<float4> table, SamplerState table_sampler, float table_size)
+{
+    LtcShading shading = (LtcShading)0;
+
+    const LtcSurface _e9 = ltc_surface(position, normal, view, material.roughness);
+    shading.surface = _e9;
+#if LTC_ANISOTROPIC
+    if (ltc_use_anisotropic) {
+        const float2 _e15 = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
+        const LtcAnisotropy _e19 = ltc_anisotropy(_e9, material.grain, _e15.x, _e15.y);
+        const LtcLobe _e22 = ltc_anisotropic_lobe_from_table(_e9, _e19, table, table_sampler, table_size, layers.anisotropic);
+        shading.specular = _e22;
+    } else {
+#else
+    {
+#endif
+#if !LTC_ANISOTROPIC
+#if LTC_GGX
+        if (ltc_use_ggx) {
+            const LtcLobe _e25 = ltc_lobe_from_table(_e9, table, table_sampler, table_size);
+            shading.specular = _e25;
+        }
+#endif
+#endif
+    }
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        const LtcSurface _e29 = ltc_surface_with_roughness(_e9, material.coat_roughness);
+        const LtcLobe _e30 = ltc_lobe_from_table(_e29, table, table_sampler, table_size);
+        shading.coat = _e30;
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        const LtcSurface _e34 = ltc_surface_with_roughness(_e9, material.sheen_roughness);
+        const LtcLobe _e36 = ltc_sheen_lobe_from_table(_e34, table, table_sampler, table_size, layers.sheen);
+        shading.sheen = _e36;
+    }
+#endif
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        const LtcSurface _e40 = ltc_surface_with_roughness(_e9, material.diffuse_roughness);
+        const LtcLobe _e42 = ltc_diffuse_lobe_from_table(_e40, table, table_sampler, table_size, layers.diffuse);
+        shading.rough = _e42;
+    }
+#endif
+    LtcShading _e43 = shading;
+    const LtcShading ltcshading = _e43;
+    return ltcshading;
+}
+
+#if (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
+// The value of a lobe without a Schlick part from the vector form factor in its space.
+float ltc_plain_value(LtcLobe lobe, float3 toward)
+{
+    return (lobe.albedo * clamp((toward.z / lobe.share), 0.0, 1.0));
+}
+#endif
+
+#if LTC_QUAD
+// What the surface receives of a convex quad; see ltc_quad.
+LtcReceived ltc_shading_quad(LtcShading shading, float3 a, float3 b, float3 c, float3 d, bool two_sided)
+{
+    LtcReceived received = (LtcReceived)0;
+
+    const LtcQuad _e8 = ltc_quad_begin(shading.surface, a, b, c, d, two_sided);
+    if (_e8.reaches) {
+        const float _e12 = ltc_quad_diffuse(shading.surface, _e8);
+        received.diffuse = _e12;
+#if LTC_GGX
+        if (ltc_use_ggx) {
+            const float3 _e18 = ltc_quad_lobe(_e8, shading.specular);
+            const float2 _e19 = ltc_lobe_value(shading.surface, shading.specular, _e18);
+            received.specular = _e19;
+        }
+#endif
+#if LTC_CLEARCOAT
+        if (ltc_use_clearcoat) {
+            const float3 _e25 = ltc_quad_lobe(_e8, shading.coat);
+            const float2 _e26 = ltc_lobe_value(shading.surface, shading.coat, _e25);
+            received.coat = _e26;
+        }
+#endif
+#if LTC_SHEEN
+        if (ltc_use_sheen) {
+            const float3 _e31 = ltc_quad_lobe(_e8, shading.sheen);
+            const float _e32 = ltc_plain_value(shading.sheen, _e31);
+            received.sheen = _e32;
+        }
+#endif
+#if LTC_ROUGH_DIFFUSE
+        if (ltc_use_rough_diffuse) {
+            const float3 _e37 = ltc_quad_lobe(_e8, shading.rough);
+            const float _e38 = ltc_plain_value(shading.rough, _e37);
+            received.rough = _e38;
+        }
+#endif
+    }
+    LtcReceived _e39 = received;
+    const LtcReceived ltcreceived = _e39;
+    return ltcreceived;
+}
+#endif
+
+#if LTC_DISK
+// What the surface receives of a disk; see ltc_disk.
+LtcReceived ltc_shading_disk(LtcShading shading, float3 centre, float3 half_x, float3 half_y, bool two_sided)
+{
+    LtcReceived received = (LtcReceived)0;
+
+    const LtcDisk _e7 = ltc_disk_begin(shading.surface, centre, half_x, half_y, two_sided);
+    const float _e9 = ltc_disk_diffuse(_e7);
+    received.diffuse = _e9;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e15 = ltc_disk_lobe(_e7, shading.specular);
+        const float2 _e16 = ltc_lobe_value(shading.surface, shading.specular, _e15);
+        received.specular = _e16;
+    }
+#endif
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        const float3 _e22 = ltc_disk_lobe(_e7, shading.coat);
+        const float2 _e23 = ltc_lobe_value(shading.surface, shading.coat, _e22);
+        received.coat = _e23;
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        const float3 _e28 = ltc_disk_lobe(_e7, shading.sheen);
+        const float _e29 = ltc_plain_value(shading.sheen, _e28);
+        received.sheen = _e29;
+    }
+#endif
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        const float3 _e34 = ltc_disk_lobe(_e7, shading.rough);
+        const float _e35 = ltc_plain_value(shading.rough, _e34);
+        received.rough = _e35;
+    }
+#endif
+    LtcReceived _e36 = received;
+    const LtcReceived ltcreceived = _e36;
+    return ltcreceived;
+}
+#endif
+
+#if LTC_SPHERE
+// What the surface receives of a sphere; see ltc_sphere.
+LtcReceived ltc_shading_sphere(LtcShading shading, float3 centre, float radius)
+{
+    LtcReceived received = (LtcReceived)0;
+
+    const LtcSphere _e5 = ltc_sphere_begin(shading.surface, centre, radius);
+    const float _e7 = ltc_sphere_diffuse(_e5);
+    received.diffuse = _e7;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e13 = ltc_sphere_lobe(_e5, shading.specular);
+        const float2 _e14 = ltc_lobe_value(shading.surface, shading.specular, _e13);
+        received.specular = _e14;
+    }
+#endif
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        const float3 _e20 = ltc_sphere_lobe(_e5, shading.coat);
+        const float2 _e21 = ltc_lobe_value(shading.surface, shading.coat, _e20);
+        received.coat = _e21;
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        const float3 _e26 = ltc_sphere_lobe(_e5, shading.sheen);
+        const float _e27 = ltc_plain_value(shading.sheen, _e26);
+        received.sheen = _e27;
+    }
+#endif
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        const float3 _e32 = ltc_sphere_lobe(_e5, shading.rough);
+        const float _e33 = ltc_plain_value(shading.rough, _e32);
+        received.rough = _e33;
+    }
+#endif
+    LtcReceived _e34 = received;
+    const LtcReceived ltcreceived = _e34;
+    return ltcreceived;
+}
+#endif
+
+#if LTC_TUBE
+// What the surface receives of a tube; see ltc_tube.
+LtcReceived ltc_shading_tube(LtcShading shading, float3 start, float3 end, float radius, bool caps)
+{
+    LtcReceived received = (LtcReceived)0;
+
+    const LtcTube _e7 = ltc_tube_begin(shading.surface, start, end, radius, caps);
+    const float _e10 = ltc_tube_diffuse(shading.surface, _e7);
+    received.diffuse = _e10;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e16 = ltc_tube_lobe(_e7, shading.specular);
+        const float2 _e17 = ltc_lobe_value(shading.surface, shading.specular, _e16);
+        received.specular = _e17;
+    }
+#endif
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        const float3 _e23 = ltc_tube_lobe(_e7, shading.coat);
+        const float2 _e24 = ltc_lobe_value(shading.surface, shading.coat, _e23);
+        received.coat = _e24;
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        const float3 _e29 = ltc_tube_lobe(_e7, shading.sheen);
+        const float _e30 = ltc_plain_value(shading.sheen, _e29);
+        received.sheen = _e30;
+    }
+#endif
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        const float3 _e35 = ltc_tube_lobe(_e7, shading.rough);
+        const float _e36 = ltc_plain_value(shading.rough, _e35);
+        received.rough = _e36;
+    }
+#endif
+    LtcReceived _e37 = received;
+    const LtcReceived ltcreceived = _e37;
+    return ltcreceived;
+}
+#endif
+
+#if LTC_POLYGON
+// Starts a polygon of any number of vertices at its first one.
+LtcShadingPolygon ltc_shading_polygon_begin(LtcShading shading, float3 corner)
+{
+    LtcShadingPolygon polygon = (LtcShadingPolygon)0;
+
+    const LtcOutline _e5 = ltc_outline_begin(shading.surface, corner);
+    polygon.outline = _e5;
+    const LtcOutlineLobe _e7 = ltc_outline_lobe_begin();
+    polygon.specular = _e7;
+    const LtcOutlineLobe _e9 = ltc_outline_lobe_begin();
+    polygon.coat = _e9;
+    const LtcOutlineLobe _e11 = ltc_outline_lobe_begin();
+    polygon.sheen = _e11;
+    const LtcOutlineLobe _e13 = ltc_outline_lobe_begin();
+    polygon.rough = _e13;
+    LtcShadingPolygon _e14 = polygon;
+    const LtcShadingPolygon ltcshadingpolygon = _e14;
+    return ltcshadingpolygon;
+}
+#endif
+
+#if LTC_POLYGON
+// Adds the next vertex.
+void ltc_shading_polygon_add(inout LtcShadingPolygon polygon, LtcShading shading, float3 corner)
+{
+    LtcOutline outline_6 = (LtcOutline)0;
+    LtcOutlineLobe specular_1 = (LtcOutlineLobe)0;
+    LtcOutlineLobe coat_2 = (LtcOutlineLobe)0;
+    LtcOutlineLobe sheen_1 = (LtcOutlineLobe)0;
+    LtcOutlineLobe rough = (LtcOutlineLobe)0;
+
+    LtcOutline _e4 = polygon.outline;
+    outline_6 = _e4;
+    ltc_outline_add(outline_6, shading.surface, corner);
+    LtcOutline _e8 = outline_6;
+    polygon.outline = _e8;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        LtcOutlineLobe _e11 = polygon.specular;
+        specular_1 = _e11;
+        LtcOutline _e13 = outline_6;
+        ltc_outline_lobe_add(specular_1, _e13, shading.specular);
+        LtcOutlineLobe _e16 = specular_1;
+        polygon.specular = _e16;
+    }
+#endif
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        LtcOutlineLobe _e19 = polygon.coat;
+        coat_2 = _e19;
+        LtcOutline _e21 = outline_6;
+        ltc_outline_lobe_add(coat_2, _e21, shading.coat);
+        LtcOutlineLobe _e24 = coat_2;
+        polygon.coat = _e24;
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        LtcOutlineLobe _e27 = polygon.sheen;
+        sheen_1 = _e27;
+        LtcOutline _e29 = outline_6;
+        ltc_outline_lobe_add(sheen_1, _e29, shading.sheen);
+        LtcOutlineLobe _e32 = sheen_1;
+        polygon.sheen = _e32;
+    }
+#endif
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        LtcOutlineLobe _e35 = polygon.rough;
+        rough = _e35;
+        LtcOutline _e37 = outline_6;
+        ltc_outline_lobe_add(rough, _e37, shading.rough);
+        LtcOutlineLobe _e40 = rough;
+        polygon.rough = _e40;
+        return;
+    } else {
+#else
+    {
+#endif
+#if !LTC_ROUGH_DIFFUSE
+        return;
+#endif
+    }
+}
+#endif
+
+#if LTC_POLYGON
+// What the surface receives of the polygon whose vertices have all been added.
+LtcReceived ltc_shading_polygon_end(inout LtcShadingPolygon polygon, LtcShading shading, bool two_sided)
+{
+    LtcReceived received = (LtcReceived)0;
+
+    float3 first_7 = polygon.outline.first;
+    ltc_shading_polygon_add(polygon, shading, first_7);
+    LtcOutline outline_7 = polygon.outline;
+    const float _e10 = ltc_outline_diffuse(outline_7, two_sided);
+    received.diffuse = _e10;
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        LtcOutlineLobe _e16 = polygon.specular;
+        const float3 _e17 = ltc_outline_lobe(outline_7, _e16, two_sided);
+        const float2 _e18 = ltc_lobe_value(shading.surface, shading.specular, _e17);
+        received.specular = _e18;
+    }
+#endif
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        LtcOutlineLobe _e24 = polygon.coat;
+        const float3 _e25 = ltc_outline_lobe(outline_7, _e24, two_sided);
+        const float2 _e26 = ltc_lobe_value(shading.surface, shading.coat, _e25);
+        received.coat = _e26;
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        LtcOutlineLobe _e31 = polygon.sheen;
+        const float3 _e32 = ltc_outline_lobe(outline_7, _e31, two_sided);
+        const float _e33 = ltc_plain_value(shading.sheen, _e32);
+        received.sheen = _e33;
+    }
+#endif
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        LtcOutlineLobe _e38 = polygon.rough;
+        const float3 _e39 = ltc_outline_lobe(outline_7, _e38, two_sided);
+        const float _e40 = ltc_plain_value(shading.rough, _e39);
+        received.rough = _e40;
+    }
+#endif
+    LtcReceived _e41 = received;
+    const LtcReceived ltcreceived = _e41;
+    return ltcreceived;
+}
+#endif
+
+// Radiance that a surface reflects of a light of unit radiance; it is linear in what is received.
+//
+// The specular part lies over the diffuse one without loss, as in most engines; sheen and coat take from what is
+// below them, see ltc_sheen_over and ltc_coat_over.
+float3 ltc_reflected(LtcShading shading, LtcMaterial material, LtcReceived received)
+{
+    float3 radiance = (float3)0;
+    float3 specular_2 = (float3)0;
+
+    radiance = (material.base_colour * received.diffuse);
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        const LtcSurface _e10 = ltc_surface_with_roughness(shading.surface, material.diffuse_roughness);
+        const float3 _e17 = ltc_rough_diffuse(_e10, shading.rough, float3(received.diffuse, received.rough, 0.0), material.base_colour);
+        radiance = _e17;
+    }
+#endif
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        float3 value = float3(received.diffuse, received.specular);
+        const float3 _e24 = ltc_reflectance(value, material.normal_reflectance, material.grazing_reflectance);
+        specular_2 = _e24;
+#if LTC_ENERGY_COMPENSATION
+        if (ltc_use_energy_compensation) {
+            float3 _e27 = specular_2;
+            const float3 _e30 = ltc_energy_compensation(shading.specular, material.normal_reflectance);
+            specular_2 = (_e27 * _e30);
+        }
+#endif
+        float3 _e32 = radiance;
+        float3 _e33 = specular_2;
+        radiance = (_e32 + _e33);
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        float3 _e36 = radiance;
+        const float3 _e43 = ltc_sheen_over(_e36, shading.sheen, float3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
+        radiance = _e43;
+    }
+#endif
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        float3 _e45 = radiance;
+        const float3 _e52 = ltc_coat_over(_e45, shading.coat, float3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = _e52;
+    }
+#endif
+    float3 _e53 = radiance;
+    return _e53;
+}
+
+#if LTC_TEXTURED
+// Radiance that a surface reflects of a rectangle, or another parallelogram, that shows a picture of `texels`
+// texels: each lobe sees the picture as blurred as it is wide.
+float3 ltc_reflected_picture(LtcShading shading, LtcMaterial material, float3 a, float3 b, float3 c, float3 d, bool two_sided, Texture2D<float4> picture, SamplerState picture_sampler, float2 texels)
+{
+    LtcReceived diffuse = (LtcReceived)0;
+    float3 radiance = (float3)0;
+    LtcReceived specular_3 = (LtcReceived)0;
+    LtcReceived coat_3 = (LtcReceived)0;
+    LtcReceived sheen_2 = (LtcReceived)0;
+
+    const LtcQuad _e11 = ltc_quad_begin(shading.surface, a, b, c, d, two_sided);
+    if (!(_e11.reaches)) {
+        return (0.0).xxx;
+    }
+    const float _e19 = ltc_quad_diffuse(shading.surface, _e11);
+    diffuse.diffuse = _e19;
+#if LTC_ROUGH_DIFFUSE
+    if (ltc_use_rough_diffuse) {
+        const float3 _e24 = ltc_quad_lobe(_e11, shading.rough);
+        const float _e25 = ltc_plain_value(shading.rough, _e24);
+        diffuse.rough = _e25;
+    }
+#endif
+    const float3 _e28 = ltc_quad_toward(shading.surface, _e11);
+    const LtcLookup _e30 = ltc_rectangle_diffuse_lookup(shading.surface, a, b, d, _e28, texels, false);
+    LtcReceived _e31 = diffuse;
+    const float3 _e32 = ltc_reflected(shading, material, _e31);
+    const float4 _e33 = ltc_texture_fetch(picture, picture_sampler, _e30);
+    radiance = (_e32 * _e33.xyz);
+#if LTC_GGX
+    if (ltc_use_ggx) {
+        const float3 _e39 = ltc_quad_lobe(_e11, shading.specular);
+        const float2 _e44 = ltc_lobe_value(shading.surface, shading.specular, _e39);
+        specular_3.specular = _e44;
+        const LtcLookup _e48 = ltc_rectangle_lookup(shading.surface, shading.specular, a, b, d, _e39, texels, false);
+        float3 _e49 = radiance;
+        LtcReceived _e50 = specular_3;
+        const float3 _e51 = ltc_reflected(shading, material, _e50);
+        const float4 _e52 = ltc_texture_fetch(picture, picture_sampler, _e48);
+        radiance = (_e49 + (_e51 * _e52.xyz));
+    }
+#endif
+#if LTC_CLEARCOAT
+    if (ltc_use_clearcoat) {
+        const float3 _e58 = ltc_quad_lobe(_e11, shading.coat);
+        const float2 _e63 = ltc_lobe_value(shading.surface, shading.coat, _e58);
+        coat_3.coat = _e63;
+        const LtcLookup _e67 = ltc_rectangle_lookup(shading.surface, shading.coat, a, b, d, _e58, texels, false);
+        float3 _e68 = radiance;
+        LtcReceived _e69 = coat_3;
+        const float3 _e70 = ltc_reflected(shading, material, _e69);
+        const float4 _e71 = ltc_texture_fetch(picture, picture_sampler, _e67);
+        radiance = (_e68 + (_e70 * _e71.xyz));
+    }
+#endif
+#if LTC_SHEEN
+    if (ltc_use_sheen) {
+        const float3 _e77 = ltc_quad_lobe(_e11, shading.sheen);
+        const float _e81 = ltc_plain_value(shading.sheen, _e77);
+        sheen_2.sheen = _e81;
+        const LtcLookup _e85 = ltc_rectangle_lookup(shading.surface, shading.sheen, a, b, d, _e77, texels, false);
+        float3 _e86 = radiance;
+        LtcReceived _e87 = sheen_2;
+        const float3 _e88 = ltc_reflected(shading, material, _e87);
+        const float4 _e89 = ltc_texture_fetch(picture, picture_sampler, _e85);
+        radiance = (_e86 + (_e88 * _e89.xyz));
+    }
+#endif
+    float3 _e93 = radiance;
+    return _e93;
+}
+#endif
 
 #endif // LTC_HLSL_INCLUDED

@@ -12,7 +12,8 @@
 //! assert_eq!(softbox::TABLE_NATIVE.len(), 2 * 64 * 64 * 4 * 2);
 //! ```
 //!
-//! By default that is all. Everything else is behind a feature:
+//! A scene pays only for what it calls for: [`effects`] selects from the include. By default that is all.
+//! Everything else is behind a feature:
 //!
 //! | feature | brings |
 //! |---|---|
@@ -22,6 +23,7 @@
 //! | `package` | the drop-in package, table file formats |
 //! | `device` | evaluation on a wgpu adapter |
 //! | `scene` | scene files and their rendering |
+//! | `cost` | what a compiler for AMD's processors makes of a set of effects |
 
 use include_dir::{Dir, include_dir};
 
@@ -74,6 +76,7 @@ pub const TABLE_ANISOTROPIC: &[u8] = include_bytes!("../table/ltc_anisotropic.bi
 pub mod brdf;
 #[cfg(feature = "device")]
 pub mod device;
+pub mod effects;
 #[cfg(feature = "bake")]
 pub mod fit;
 #[cfg(feature = "shade")]
@@ -82,7 +85,7 @@ pub mod light;
 pub mod lobe;
 #[cfg(feature = "package")]
 pub mod package;
-#[cfg(feature = "bake")]
+#[cfg(any(feature = "bake", feature = "cost"))]
 pub mod report;
 #[cfg(feature = "scene")]
 pub mod scene;

@@ -389,7 +389,7 @@ fn vector_form_factors_are_bounded() {
     for case in cases(1000) {
         let surface = case.surface::<f32>();
         let tube = ltc_tube_begin(&surface, case.start, case.end, case.radius, case.caps);
-        let toward = ltc_tube_lobe(&surface, &table.lobe(&surface), &tube);
+        let toward = ltc_tube_lobe(&tube, &table.lobe(&surface));
         assert!(
             toward.z >= 0.0 && toward.length() < 1.0 + 1e-5,
             "{toward:?}, length {}: {case:?}",

@@ -58,20 +58,23 @@ fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let light = lights[pair.y];
     let two_sided = (light.flags & EVALUATE_TWO_SIDED) != 0u;
     let surface = ltc_surface(point.position, point.normal, point.view, point.roughness);
-    let table_size = f32(textureDimensions(table).x);
-    let lobe = ltc_lobe_from_table(surface, table, table_sampler, table_size);
+    var lobe: LtcLobe;
+    if (ltc_use_ggx) {
+        let table_size = f32(textureDimensions(table).x);
+        lobe = ltc_lobe_from_table(surface, table, table_sampler, table_size);
+    }
     let first = light.first;
     let a = vertices[first];
     var value: vec3<f32>;
-    if (light.kind == EVALUATE_DISK) {
+    if (ltc_use_disk & (light.kind == EVALUATE_DISK)) {
         value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
-    } else if (light.kind == EVALUATE_SPHERE) {
+    } else if (ltc_use_sphere & (light.kind == EVALUATE_SPHERE)) {
         value = ltc_sphere(surface, lobe, a.xyz, a.w);
-    } else if (light.kind == EVALUATE_TUBE) {
+    } else if (ltc_use_tube & (light.kind == EVALUATE_TUBE)) {
         value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & EVALUATE_CAPS) != 0u);
-    } else if ((light.flags & EVALUATE_CONVEX_QUAD) != 0u) {
+    } else if (ltc_use_quad & ((light.flags & EVALUATE_CONVEX_QUAD) != 0u)) {
         value = ltc_quad(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
-    } else {
+    } else if (ltc_use_polygon) {
         var polygon = ltc_polygon_begin(surface, a.xyz);
         for (var i = 1u; i < light.count; i++) {
             ltc_polygon_add(&polygon, surface, lobe, vertices[first + i].xyz);

@@ -1,4 +1,4 @@
-// Softbox: light from polygons by linearly transformed cosines.
+// Softbox: light from polygons, disks, spheres and tubes by linearly transformed cosines.
 //
 // The idea (Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly
 // Transformed Cosines"): the integral of a clamped cosine over a polygon has a closed form
@@ -20,14 +20,64 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like.
-//   2. ltc_lobe from the two texels, then ltc_quad or the ltc_polygon functions.
-//   3. ltc_lobe_from_table: with the texture array and a sampler.
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobe from the two texels.
+//   2. ltc_lobe_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
+//      ltc_polygon functions: one lobe over a diffuse part.
+//   3. ltc_shading: all lobes of a material; then ltc_shading_quad and so on for each light, and ltc_reflected.
 //
 // ARITHMETIC
 //   All geometry is f32. No input with finite coordinates makes an infinity or a NaN; nothing here
 //   tests for one. Positions are scaled by 1/16 so that the difference of two finite positions is
 //   finite, and by the light's own size so that no product leaves the range of f32.
+//
+// SWITCHES
+//   What a scene never calls for costs nothing: each effect has a switch, and what only serves
+//   effects that are off is dead code. In WGSL a switch is an override, set for each pipeline.
+
+/// Whether there are convex quads and triangles.
+override ltc_use_quad: bool = true;
+
+/// Whether there are polygons of any number of vertices.
+override ltc_use_polygon: bool = true;
+
+/// Whether there are disks and ellipses.
+override ltc_use_disk: bool = true;
+
+/// Whether there are spheres.
+override ltc_use_sphere: bool = true;
+
+/// Whether there are tubes.
+override ltc_use_tube: bool = true;
+
+/// Whether there are rectangles that show a picture.
+override ltc_use_textured: bool = true;
+
+/// Whether surfaces are specular. Without it only the diffuse value means anything.
+override ltc_use_ggx: bool = true;
+
+/// Whether surfaces have a clear coat.
+override ltc_use_clearcoat: bool = true;
+
+/// Whether surfaces have a sheen.
+override ltc_use_sheen: bool = true;
+
+/// Whether diffuse parts are rough. Without it they follow Lambert's law.
+override ltc_use_rough_diffuse: bool = true;
+
+/// Whether rough metals get back the light that their facets reflect more than once.
+override ltc_use_energy_compensation: bool = true;
+
+/// Whether the roughness of specular parts depends on the direction.
+override ltc_use_anisotropic: bool = true;
+
+/// Whether lights may emit from both sides. Without it `two_sided` counts as false.
+override ltc_use_two_sided: bool = true;
+
+/// Whether tubes may have caps. Without it `caps` counts as false.
+override ltc_use_caps: bool = true;
+
+/// Whether quads are cut at the horizons by a cheap approximation, see ltc_quad. Off unless it is asked for.
+override ltc_use_cheap_horizon: bool = false;
 
 /// Pi.
 const LTC_PI: f32 = 3.14159265358979;
@@ -233,21 +283,32 @@ fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<
 /// The value (diffuse, specular, fresnel) from the form factor over the surface's horizon and the vector
 /// form factor over both horizons in the lobe's space, both of the light that the surface receives.
 fn ltc_value(surface: LtcSurface, lobe: LtcLobe, form_factor: f32, toward: vec3<f32>) -> vec3<f32> {
-    return vec3<f32>(form_factor, ltc_specular(surface, lobe, clamp(toward.z / lobe.share, 0.0, 1.0), toward));
+    var specular = vec2<f32>(0.0);
+    if (ltc_use_ggx) {
+        specular = ltc_lobe_value(surface, lobe, toward);
+    }
+    return vec3<f32>(form_factor, specular);
+}
+
+/// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
+fn ltc_lobe_value(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> vec2<f32> {
+    return ltc_specular(surface, lobe, clamp(toward.z / lobe.share, 0.0, 1.0), toward);
 }
 
 /// The form factor of the light that arrives, from a signed one; `front` tells whether the light shows its
 /// emitting side. A two-sided light is lit by the sign that the sum itself has: `front` may differ from it by
 /// rounding where the light is seen edge-on.
 fn ltc_received(form_factor: f32, front: bool, two_sided: bool) -> f32 {
-    let received = select(form_factor, abs(form_factor), two_sided);
-    return select(0.0, clamp(received, 0.0, 1.0), front | two_sided);
+    let both_sides = two_sided & ltc_use_two_sided;
+    let received = select(form_factor, abs(form_factor), both_sides);
+    return select(0.0, clamp(received, 0.0, 1.0), front | both_sides);
 }
 
 /// ltc_received for a vector form factor, whose sign is that of its z.
 fn ltc_received_vector(form_factor: vec3<f32>, front: bool, two_sided: bool) -> vec3<f32> {
-    let received = select(form_factor, -form_factor, two_sided & (form_factor.z < 0.0));
-    return select(vec3<f32>(0.0), received, front | two_sided);
+    let both_sides = two_sided & ltc_use_two_sided;
+    let received = select(form_factor, -form_factor, both_sides & (form_factor.z < 0.0));
+    return select(vec3<f32>(0.0), received, front | both_sides);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -371,6 +432,43 @@ fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>) -> vec3<f
     let cancels = dot(between, between) < 1e-6 * max(dot(above, above), dot(below, below));
     let tilted = dot(turned, turned) > 1e-3 * dot(normal, normal);
     return select(between, turned, cancels & tilted);
+}
+
+/// The form factor of what a horizon leaves of a round light: `size` is the sine of its half-angle, `tilt` the cosine between
+/// its direction and the horizon's normal, `offset` the cosine of half the arc of its rim that is above, less for more,
+/// and `reach` the sine (Snyder 1996, "Area Light Sources for Real-Time Graphics", in another form).
+fn ltc_cap(size: f32, tilt: f32, offset: f32, reach: f32) -> f32 {
+    // The angle between the ends of the chord, seen from the surface point, and that around the light's direction.
+    let half_chord = size * reach;
+    let k = 2.0 * half_chord * half_chord;
+    let under = max(1.0 - half_chord * half_chord, 0.0);
+    let sine = 2.0 * half_chord * (under * inverseSqrt(max(under, LTC_TINY)));
+    let excess = sine * ltc_angle_excess(min(k, 2.0 - k));
+    let rest = select(excess, LTC_PI - 2.0 * sine - excess, k > 1.0);
+    let around_k = 2.0 * reach * reach;
+    let lesser = 2.0 * reach * abs(offset);
+    let acute = lesser + lesser * ltc_angle_excess(max(min(around_k, 2.0 - around_k), 0.0));
+    let part = select(acute, LTC_PI - acute, around_k > 1.0);
+    let angle = select(2.0 * LTC_PI - part, part, tilt < 0.0);
+    return (rest + tilt * (sine * tilt + size * size * angle)) * LTC_OVER_TWO_PI;
+}
+
+/// The form factor of what the horizon with the given unit normal leaves of the round light whose vector form factor is
+/// given: the sine of its half-angle is the root of that one's length.
+fn ltc_cap_above(form_factor: vec3<f32>, normal: vec3<f32>) -> f32 {
+    let squared = dot(form_factor, form_factor);
+    let inverse_length = inverseSqrt(max(squared, LTC_TINY));
+    let whole = min(squared * inverse_length, 1.0);
+    let tilt = clamp(dot(form_factor, normal) * inverse_length, -1.0, 1.0);
+    let size = whole * inverseSqrt(max(whole, LTC_TINY));
+    // Heights over the horizon run from tilt cos - steep sin of the half-angle to tilt cos + steep sin.
+    let rise = (1.0 - tilt * tilt) * whole;
+    let height_squared = max(1.0 - whole, 0.0);
+    let height = tilt * (height_squared * inverseSqrt(max(height_squared, LTC_TINY)));
+    let offset = clamp(-height * inverseSqrt(max(rise, 1e-30)), -1.0, 1.0);
+    let under = max(1.0 - offset * offset, 0.0);
+    let cut = ltc_cap(size, tilt, offset, under * inverseSqrt(max(under, LTC_TINY)));
+    return saturate(select(select(cut, 0.0, offset >= 1.0), whole * tilt, offset <= -1.0));
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -528,9 +626,9 @@ fn ltc_quad_begin(surface: LtcSurface, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
     let p_a = a_full * scale;
     var quad: LtcQuad;
     quad.front = dot(cross(side_c, side_d - side_b), p_a) < 0.0;
-    quad.two_sided = two_sided;
+    quad.two_sided = two_sided & ltc_use_two_sided;
     quad.reaches = false;
-    if (!(quad.front | two_sided)) {
+    if (!(quad.front | quad.two_sided)) {
         return quad;
     }
 
@@ -560,8 +658,8 @@ fn ltc_quad_begin(surface: LtcSurface, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
     var v_c = p_c;
     var v_d = p_d;
     var v_e = p_d;
-    quad.clipped = !(a_up & b_up & c_up & d_up);
-    if (quad.clipped) {
+    quad.clipped = !(a_up & b_up & c_up & d_up) & !ltc_use_cheap_horizon;
+    if (!ltc_use_cheap_horizon & quad.clipped) {
         // Turn the quad until its last vertex is the last one below; the quad cut at the surface is
         // then the pentagon of the first three vertices, the exit and the entry.
         let last_a = b_up & !a_up;
@@ -628,7 +726,7 @@ fn ltc_quad_form_factor(quad: LtcQuad) -> vec3<f32> {
     let e_unit = quad.e * e_inverse;
     var edges = ltc_edge(a_unit, b_unit, quad.a_normal, a_inverse * b_inverse) + ltc_edge(b_unit, c_unit, quad.b_normal, b_inverse * c_inverse)
         + ltc_edge(c_unit, d_unit, quad.c_normal, c_inverse * d_inverse) + ltc_edge(e_unit, a_unit, quad.e_normal, e_inverse * a_inverse);
-    if (quad.clipped) {
+    if (!ltc_use_cheap_horizon & quad.clipped) {
         edges += ltc_edge(d_unit, e_unit, quad.d_normal, d_inverse * e_inverse);
     }
     return -edges;
@@ -639,7 +737,17 @@ fn ltc_quad_diffuse(surface: LtcSurface, quad: LtcQuad) -> f32 {
     if (!quad.reaches) {
         return 0.0;
     }
-    return ltc_received(dot(surface.normal, ltc_quad_form_factor(quad)) * LTC_OVER_TWO_PI, quad.front, quad.two_sided);
+    let form_factor = ltc_quad_form_factor(quad) * LTC_OVER_TWO_PI;
+    if (ltc_use_cheap_horizon) {
+        return ltc_cap_above(select(-form_factor, form_factor, quad.front), surface.normal);
+    }
+    return ltc_received(dot(surface.normal, form_factor), quad.front, quad.two_sided);
+}
+
+/// The vector form factor of a quad, cut at the surface's horizon, in the caller's space, towards the light.
+fn ltc_quad_toward(surface: LtcSurface, quad: LtcQuad) -> vec3<f32> {
+    let form_factor = ltc_quad_form_factor(quad) * LTC_OVER_TWO_PI;
+    return select(form_factor, -form_factor, dot(surface.normal, form_factor) < 0.0);
 }
 
 /// The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
@@ -656,6 +764,24 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
     let lowest = base.z + min(min(min(a.z, b.z), min(c.z, d.z)), e.z);
     // The lobe's space stretches: there a distant light may be near.
     let size = max(max(max(dot(a, a), dot(b, b)), max(dot(c, c), dot(d, d))), dot(e, e));
+    if (ltc_use_cheap_horizon) {
+        var moved = quad;
+        moved.distant = quad.distant & (size < 0.0625 * dot(base, base));
+        let offset = select(base, vec3<f32>(0.0), moved.distant);
+        moved.base = base;
+        moved.a = a + offset;
+        moved.b = b + offset;
+        moved.c = c + offset;
+        moved.d = d + offset;
+        moved.e = e + offset;
+        moved.a_normal = ltc_transform_normal(lobe, quad.a_normal);
+        moved.b_normal = ltc_transform_normal(lobe, quad.b_normal);
+        moved.c_normal = ltc_transform_normal(lobe, quad.c_normal);
+        moved.e_normal = ltc_transform_normal(lobe, quad.e_normal);
+        let winding = ltc_quad_form_factor(moved) * LTC_OVER_TWO_PI;
+        let form_factor = select(-winding, winding, quad.front);
+        return vec3<f32>(form_factor.xy, ltc_cap_above(form_factor, vec3<f32>(0.0, 0.0, 1.0))) * lobe.share;
+    }
     var sum: vec3<f32>;
     if (quad.distant & (lowest > 0.0) & (size < 0.0625 * dot(base, base))) {
         sum = ltc_far_pentagon(base, a, b, c, d, e, quad.clipped);
@@ -676,12 +802,21 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
 /// 1e-4 of its value for smaller ones down to 1e-5 of the distance, unless they are seen edge-on.
 /// Where an edge passes by at less than 1/25 of the distance of its ends, 4e-8 times that ratio takes the
 /// place of 1e-6: so much do the coordinates' own digits leave open.
+///
+/// With the switch for a cheap horizon a light is not cut. A round light of the same vector form factor stands in for
+/// it where a horizon would cut it (Hill and Heitz 2016, "Real-Time Area Lighting: a Journey from Research to
+/// Production"), and lobes are cut at their own horizon only. A light above the horizons has the same value; one that
+/// straddles them is off by up to 0.1, and light may come from a little below the surface.
 fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
     let quad = ltc_quad_begin(surface, a, b, c, d, two_sided);
     if (!quad.reaches) {
         return vec3<f32>(0.0);
     }
-    return ltc_value(surface, lobe, ltc_quad_diffuse(surface, quad), ltc_quad_lobe(quad, lobe));
+    var toward = vec3<f32>(0.0);
+    if (ltc_use_ggx) {
+        toward = ltc_quad_lobe(quad, lobe);
+    }
+    return ltc_value(surface, lobe, ltc_quad_diffuse(surface, quad), toward);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -953,7 +1088,9 @@ fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
     var outline = (*polygon).outline;
     var sum = (*polygon).lobe;
     ltc_outline_add(&outline, surface, corner);
-    ltc_outline_lobe_add(&sum, outline, lobe);
+    if (ltc_use_ggx) {
+        ltc_outline_lobe_add(&sum, outline, lobe);
+    }
     (*polygon).outline = outline;
     (*polygon).lobe = sum;
 }
@@ -963,7 +1100,11 @@ fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe
     let first = (*polygon).outline.first;
     ltc_polygon_add(polygon, surface, lobe, first);
     let form_factor = ltc_outline_diffuse((*polygon).outline, two_sided);
-    return ltc_value(surface, lobe, form_factor, ltc_outline_lobe((*polygon).outline, (*polygon).lobe, two_sided));
+    var toward = vec3<f32>(0.0);
+    if (ltc_use_ggx) {
+        toward = ltc_outline_lobe((*polygon).outline, (*polygon).lobe, two_sided);
+    }
+    return ltc_value(surface, lobe, form_factor, toward);
 }
 
 /// ltc_edge_about for points and their offsets from `origin`. A point far from `origin` may as well be
@@ -982,7 +1123,7 @@ fn ltc_edge_from(origin: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f
 //
 //     let tube = ltc_tube_begin(surface, start, end, radius, caps);
 //     let form_factor = ltc_tube_diffuse(surface, tube);
-//     let toward = ltc_tube_lobe(surface, lobe, tube);      // for each lobe
+//     let toward = ltc_tube_lobe(tube, lobe);      // for each lobe
 //
 // A thin tube is seen as a line whose width in angle falls with the cosine to its closest point. The
 // integral of directions along it is closed (Heitz and Hill 2017, "Linear-Light Shading with Linearly
@@ -1108,7 +1249,7 @@ fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius:
     let across = moment * inverse;
 
     // Rims are seen nearer than the axis, by pi / 4 of the radius on average; the outline of caps begins at it.
-    let nearer = select(0.25 * LTC_PI * sine, 0.0, caps);
+    let nearer = select(0.25 * LTC_PI * sine, 0.0, caps & ltc_use_caps);
     let moved = cross(axis, moment) * nearer;
     // Half the tube's extent in height, across its axis: that of its width as it is seen, or inside the tube of
     // its whole section.
@@ -1139,7 +1280,7 @@ fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius:
     tube.start_weight = 0.0;
     tube.end_cap = vec3<f32>(0.0);
     tube.end_weight = 0.0;
-    if (caps) {
+    if (ltc_use_caps & caps) {
         // The outline of a capsule has half a disk at each end, but more of the nearer one and less of the other:
         // its straight parts meet the two disks where both have the same tangent.
         let a_inverse = inverseSqrt(max(max(a_squared, r * r), LTC_TINY));
@@ -1162,9 +1303,12 @@ fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius:
 fn ltc_tube_diffuse(surface: LtcSurface, tube: LtcTube) -> f32 {
     let foot = cross(tube.axis, tube.across);
     let sum = ltc_tube_line(tube.start, tube.end, foot, tube.axis_distance, tube.remaining_length);
-    let start_cap = tube.start_weight * max(dot(surface.normal, tube.start_cap), 0.0) * ltc_root(dot(tube.start_cap, tube.start_cap));
-    let end_cap = tube.end_weight * max(dot(surface.normal, tube.end_cap), 0.0) * ltc_root(dot(tube.end_cap, tube.end_cap));
-    return saturate(max(dot(surface.normal, sum), 0.0) * tube.sine * tube.share + start_cap + end_cap);
+    var value = max(dot(surface.normal, sum), 0.0) * tube.sine * tube.share;
+    if (ltc_use_caps) {
+        value += tube.start_weight * max(dot(surface.normal, tube.start_cap), 0.0) * ltc_root(dot(tube.start_cap, tube.start_cap));
+        value += tube.end_weight * max(dot(surface.normal, tube.end_cap), 0.0) * ltc_root(dot(tube.end_cap, tube.end_cap));
+    }
+    return saturate(value);
 }
 
 /// The vector form factor of a tube's cap in the lobe's space: that of a small disk at its middle.
@@ -1189,7 +1333,7 @@ fn ltc_tube_cap(lobe: LtcLobe, cap: vec3<f32>, weight: f32) -> vec3<f32> {
 /// 0.08 of the distance: 0.006 and 0.09 % at roughness 0.4 to 1, 0.03 and 0.2 % at 0.15 to 0.4; with caps 0.02 and
 /// 0.2 %, 0.04 and 0.5 %. A cap is one point: a lobe narrower than a cap misses it or sees it whole, 5 % at 0.05
 /// to 0.15 and a radius of 0.02.
-fn ltc_tube_lobe(surface: LtcSurface, lobe: LtcLobe, tube: LtcTube) -> vec3<f32> {
+fn ltc_tube_lobe(tube: LtcTube, lobe: LtcLobe) -> vec3<f32> {
     let axis = ltc_transform(lobe, tube.axis);
     let volume = max(dot(ltc_transform_normal(lobe, tube.axis), axis), 0.0);
     let stretch_squared = dot(axis, axis);
@@ -1242,7 +1386,7 @@ fn ltc_tube_lobe(surface: LtcSurface, lobe: LtcLobe, tube: LtcTube) -> vec3<f32>
     let line_length = tube.remaining_length * stretch * max(1.0 - a_part - b_part, 0.0);
     let sum = ltc_tube_line(a + left * a_part, b - left * b_part, foot, line_distance, line_length);
     var value = sum * select(0.0, 0.5 * chord_squared * chord_inverse, max(a.z, b.z) > 0.0);
-    if (tube.start_weight + tube.end_weight > 0.0) {
+    if (ltc_use_caps & (tube.start_weight + tube.end_weight > 0.0)) {
         value += ltc_tube_cap(lobe, tube.start_cap, tube.start_weight) + ltc_tube_cap(lobe, tube.end_cap, tube.end_weight);
         // Caps of a thick tube overlap it; there is no more than the hemisphere.
         value *= min(inverseSqrt(max(dot(value, value), LTC_TINY)), 1.0);
@@ -1259,9 +1403,11 @@ fn ltc_tube_lobe(surface: LtcSurface, lobe: LtcLobe, tube: LtcTube) -> vec3<f32>
 /// ltc_tube_lobe.
 fn ltc_tube(surface: LtcSurface, lobe: LtcLobe, start: vec3<f32>, end: vec3<f32>, radius: f32, caps: bool) -> vec3<f32> {
     let tube = ltc_tube_begin(surface, start, end, radius, caps);
-    let toward = ltc_tube_lobe(surface, lobe, tube);
-    let specular = ltc_specular(surface, lobe, clamp(toward.z / lobe.share, 0.0, 1.0), toward);
-    return vec3<f32>(ltc_tube_diffuse(surface, tube), specular);
+    var toward = vec3<f32>(0.0);
+    if (ltc_use_ggx) {
+        toward = ltc_tube_lobe(tube, lobe);
+    }
+    return ltc_value(surface, lobe, ltc_tube_diffuse(surface, tube), toward);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -2017,7 +2163,7 @@ fn ltc_disk_begin(surface: LtcSurface, centre: vec3<f32>, half_x: vec3<f32>, hal
     disk.volume = abs(volume);
     disk.cut = ltc_cut(surface.normal, disk.half_x, disk.half_y, disk.size, disk.centre);
     disk.clipped = disk.cut.offset > -1.0;
-    disk.reaches = (front | (two_sided & (volume > 0.0))) & (disk.cut.offset < 1.0);
+    disk.reaches = (front | (two_sided & ltc_use_two_sided & (volume > 0.0))) & (disk.cut.offset < 1.0);
     return disk;
 }
 
@@ -2109,7 +2255,11 @@ fn ltc_disk(surface: LtcSurface, lobe: LtcLobe, centre: vec3<f32>, half_x: vec3<
     if (!disk.reaches) {
         return vec3<f32>(0.0);
     }
-    return ltc_value(surface, lobe, ltc_disk_diffuse(disk), ltc_disk_lobe(disk, lobe));
+    var toward = vec3<f32>(0.0);
+    if (ltc_use_ggx) {
+        toward = ltc_disk_lobe(disk, lobe);
+    }
+    return ltc_value(surface, lobe, ltc_disk_diffuse(disk), toward);
 }
 
 /// Places a sphere over a surface; see ltc_sphere.
@@ -2152,22 +2302,9 @@ fn ltc_sphere_begin(surface: LtcSurface, centre: vec3<f32>, radius: f32) -> LtcS
 fn ltc_sphere_diffuse(sphere: LtcSphere) -> f32 {
     let disk = sphere.disk;
     let tilt = dot(disk.cut.normal, disk.normal);
-    let whole = disk.size * disk.size;
-    var value = whole * tilt;
+    var value = disk.size * disk.size * tilt;
     if (disk.clipped) {
-        // The angle between the ends of the chord, seen from the surface point, and that around the sphere's direction.
-        let half_chord = disk.size * disk.cut.reach;
-        let k = 2.0 * half_chord * half_chord;
-        let under = max(1.0 - half_chord * half_chord, 0.0);
-        let sine = 2.0 * half_chord * (under * inverseSqrt(max(under, LTC_TINY)));
-        let excess = sine * ltc_angle_excess(min(k, 2.0 - k));
-        let rest = select(excess, LTC_PI - 2.0 * sine - excess, k > 1.0);
-        let around_k = 2.0 * disk.cut.reach * disk.cut.reach;
-        let lesser = 2.0 * disk.cut.reach * abs(disk.cut.offset);
-        let acute = lesser + lesser * ltc_angle_excess(max(min(around_k, 2.0 - around_k), 0.0));
-        let part = select(acute, LTC_PI - acute, around_k > 1.0);
-        let angle = select(2.0 * LTC_PI - part, part, tilt < 0.0);
-        value = (rest + tilt * (sine * tilt + whole * angle)) * LTC_OVER_TWO_PI;
+        value = ltc_cap(disk.size, tilt, disk.cut.offset, disk.cut.reach);
     }
     return select(select(0.0, saturate(value), disk.reaches), 1.0, sphere.inside);
 }
@@ -2192,7 +2329,11 @@ fn ltc_sphere(surface: LtcSurface, lobe: LtcLobe, centre: vec3<f32>, radius: f32
     if (!sphere.disk.reaches) {
         return vec3<f32>(0.0);
     }
-    return ltc_value(surface, lobe, ltc_sphere_diffuse(sphere), ltc_sphere_lobe(sphere, lobe));
+    var toward = vec3<f32>(0.0);
+    if (ltc_use_ggx) {
+        toward = ltc_sphere_lobe(sphere, lobe);
+    }
+    return ltc_value(surface, lobe, ltc_sphere_diffuse(sphere), toward);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -2267,7 +2408,8 @@ fn ltc_anisotropic_alpha(roughness: f32, anisotropy: f32) -> vec2<f32> {
 fn ltc_anisotropy(surface: LtcSurface, tangent: vec3<f32>, alpha_x: f32, alpha_y: f32) -> LtcAnisotropy {
     let given = ltc_direction(tangent);
     let flat_part = given - surface.normal * dot(surface.normal, given);
-    let along = ltc_direction(select(surface.tangent, flat_part, dot(flat_part, flat_part) > 1e-8));
+    let fallback = surface.tangent;
+    let along = ltc_direction(select(fallback, flat_part, dot(flat_part, flat_part) > 1e-8));
     let across = cross(surface.normal, along);
     let bounded_x = clamp(alpha_x, LTC_ALPHA_FLOOR, 1.0);
     let bounded_y = clamp(alpha_y, LTC_ALPHA_FLOOR, 1.0);
@@ -2450,14 +2592,364 @@ fn ltc_anisotropic_lobe_from_table(surface: LtcSurface, anisotropy: LtcAnisotrop
     let lower_left = upper_left + vec2<f32>(0.0, next);
     let lower_right = upper_left + vec2<f32>(next, next);
     let upper_first = mix(textureSampleLevel(table, table_sampler, upper_left, first_layer, 0.0),
-        textureSampleLevel(table, table_sampler, upper_right, first_layer, 0.0), between.x);
+        textureSampleLevel(table, table_sampler, upper_right, first_layer, 0.0), vec4<f32>(between.x));
     let lower_first = mix(textureSampleLevel(table, table_sampler, lower_left, first_layer, 0.0),
-        textureSampleLevel(table, table_sampler, lower_right, first_layer, 0.0), between.x);
+        textureSampleLevel(table, table_sampler, lower_right, first_layer, 0.0), vec4<f32>(between.x));
     let upper_second = mix(textureSampleLevel(table, table_sampler, upper_left, first_layer + 1, 0.0),
-        textureSampleLevel(table, table_sampler, upper_right, first_layer + 1, 0.0), between.x);
+        textureSampleLevel(table, table_sampler, upper_right, first_layer + 1, 0.0), vec4<f32>(between.x));
     let lower_second = mix(textureSampleLevel(table, table_sampler, lower_left, first_layer + 1, 0.0),
-        textureSampleLevel(table, table_sampler, lower_right, first_layer + 1, 0.0), between.x);
-    let first = mix(upper_first, lower_first, between.y);
-    let second = mix(upper_second, lower_second, between.y);
+        textureSampleLevel(table, table_sampler, lower_right, first_layer + 1, 0.0), vec4<f32>(between.x));
+    let first = mix(upper_first, lower_first, vec4<f32>(between.y));
+    let second = mix(upper_second, lower_second, vec4<f32>(between.y));
     return ltc_anisotropic_lobe(surface, anisotropy, shape, amplitude, first, second);
+}
+
+// ---------------------------------------------------------------------------------------------
+// Whole surfaces under many lights
+//
+//     let shading = ltc_shading(position, normal, view, material, layers, table, table_sampler, table_size);
+//     for each light:
+//         let received = ltc_shading_quad(shading, a, b, c, d, two_sided);
+//         sum += radiance * ltc_reflected(shading, material, received);
+//
+// What belongs to the surface alone - frame, samples of the table, lobes - is made once, and what belongs to
+// a light alone - its cut at the surface's horizon - once for all lobes. A part of the surface that is
+// switched off costs nothing; one that is on costs its lobe even where a material gives it no weight.
+// ---------------------------------------------------------------------------------------------
+
+/// What a surface is made of. Members that belong to a switched-off effect are not read.
+struct LtcMaterial {
+    /// Reflectance of the diffuse part, 0 to 1.
+    base_colour: vec3<f32>,
+    /// Perceptual roughness of the specular part, 0 to 1.
+    roughness: f32,
+    /// Specular reflectance at normal incidence (F0).
+    normal_reflectance: vec3<f32>,
+    /// Roughness of the diffuse part, from 0 for Lambert's law to 1.
+    diffuse_roughness: f32,
+    /// Specular reflectance at grazing incidence (F90).
+    grazing_reflectance: vec3<f32>,
+    /// Share of the surface that a clear coat covers, 0 to 1.
+    coat: f32,
+    /// Reflectance of the sheen over everything but the coat, 0 to 1.
+    sheen_colour: vec3<f32>,
+    /// Perceptual roughness of the sheen.
+    sheen_roughness: f32,
+    /// Direction along the surface in which highlights are longest; need be neither unit nor quite along it.
+    grain: vec3<f32>,
+    /// Strength of the anisotropy, 0 to 1, see ltc_anisotropic_alpha.
+    anisotropy: f32,
+    /// Perceptual roughness of the coat.
+    coat_roughness: f32,
+    /// Reflectance of the coat at normal incidence.
+    coat_reflectance: f32,
+}
+
+/// Which layers of the table's texture array hold what; constants of the caller. Those of switched-off effects
+/// are not read.
+struct LtcLayers {
+    /// The layer of the sheen.
+    sheen: i32,
+    /// The layer of rough diffuse parts.
+    diffuse: i32,
+    /// The first of the two layers of anisotropic surfaces.
+    anisotropic: i32,
+}
+
+/// A surface point with all its lobes.
+struct LtcShading {
+    /// The point and its frame.
+    surface: LtcSurface,
+    /// The specular lobe.
+    specular: LtcLobe,
+    /// The coat's lobe.
+    coat: LtcLobe,
+    /// The sheen's lobe.
+    sheen: LtcLobe,
+    /// The lobe of a rough diffuse part.
+    rough: LtcLobe,
+}
+
+/// What the parts of a surface receive of a light of unit radiance and reflect of it for a colour of 1.
+struct LtcReceived {
+    /// The form factor.
+    diffuse: f32,
+    /// The value of the rough diffuse lobe.
+    rough: f32,
+    /// The specular value and Schlick's part of it.
+    specular: vec2<f32>,
+    /// The same of the coat.
+    coat: vec2<f32>,
+    /// The value of the sheen's lobe.
+    sheen: f32,
+}
+
+/// A polygon that is given vertex by vertex to a whole surface.
+struct LtcShadingPolygon {
+    /// Its outline.
+    outline: LtcOutline,
+    /// What the specular lobe knows of it.
+    specular: LtcOutlineLobe,
+    /// What the coat's lobe knows of it.
+    coat: LtcOutlineLobe,
+    /// What the sheen's lobe knows of it.
+    sheen: LtcOutlineLobe,
+    /// What the rough diffuse lobe knows of it.
+    rough: LtcOutlineLobe,
+}
+
+/// A material of a diffuse and a specular part and nothing else; F90 is 1.
+fn ltc_material(base_colour: vec3<f32>, roughness: f32, normal_reflectance: vec3<f32>) -> LtcMaterial {
+    var material: LtcMaterial;
+    material.base_colour = base_colour;
+    material.roughness = roughness;
+    material.normal_reflectance = normal_reflectance;
+    material.diffuse_roughness = 0.0;
+    material.grazing_reflectance = vec3<f32>(1.0);
+    material.coat = 0.0;
+    material.sheen_colour = vec3<f32>(0.0);
+    material.sheen_roughness = 0.5;
+    material.grain = vec3<f32>(0.0);
+    material.anisotropy = 0.0;
+    material.coat_roughness = 0.1;
+    material.coat_reflectance = 0.04;
+    return material;
+}
+
+/// The lobes of a surface point. `normal` and `view` are as for ltc_surface, the table as for ltc_lobe_from_table,
+/// with the layers of the effects that are on.
+fn ltc_shading(position: vec3<f32>, normal: vec3<f32>, view: vec3<f32>, material: LtcMaterial, layers: LtcLayers, table: texture_2d_array<f32>, table_sampler: sampler, table_size: f32) -> LtcShading {
+    let surface = ltc_surface(position, normal, view, material.roughness);
+    var shading: LtcShading;
+    shading.surface = surface;
+    if (ltc_use_anisotropic) {
+        let alpha = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
+        let anisotropy = ltc_anisotropy(surface, material.grain, alpha.x, alpha.y);
+        shading.specular = ltc_anisotropic_lobe_from_table(surface, anisotropy, table, table_sampler, table_size, layers.anisotropic);
+    } else if (ltc_use_ggx) {
+        shading.specular = ltc_lobe_from_table(surface, table, table_sampler, table_size);
+    }
+    if (ltc_use_clearcoat) {
+        shading.coat = ltc_lobe_from_table(ltc_surface_with_roughness(surface, material.coat_roughness), table, table_sampler, table_size);
+    }
+    if (ltc_use_sheen) {
+        shading.sheen = ltc_sheen_lobe_from_table(ltc_surface_with_roughness(surface, material.sheen_roughness), table, table_sampler, table_size, layers.sheen);
+    }
+    if (ltc_use_rough_diffuse) {
+        shading.rough = ltc_diffuse_lobe_from_table(ltc_surface_with_roughness(surface, material.diffuse_roughness), table, table_sampler, table_size, layers.diffuse);
+    }
+    return shading;
+}
+
+/// The value of a lobe without a Schlick part from the vector form factor in its space.
+fn ltc_plain_value(lobe: LtcLobe, toward: vec3<f32>) -> f32 {
+    return lobe.albedo * clamp(toward.z / lobe.share, 0.0, 1.0);
+}
+
+/// What the surface receives of a convex quad; see ltc_quad.
+fn ltc_shading_quad(shading: LtcShading, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> LtcReceived {
+    var received: LtcReceived;
+    let quad = ltc_quad_begin(shading.surface, a, b, c, d, two_sided);
+    if (quad.reaches) {
+        received.diffuse = ltc_quad_diffuse(shading.surface, quad);
+        if (ltc_use_ggx) {
+            received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_quad_lobe(quad, shading.specular));
+        }
+        if (ltc_use_clearcoat) {
+            received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_quad_lobe(quad, shading.coat));
+        }
+        if (ltc_use_sheen) {
+            received.sheen = ltc_plain_value(shading.sheen, ltc_quad_lobe(quad, shading.sheen));
+        }
+        if (ltc_use_rough_diffuse) {
+            received.rough = ltc_plain_value(shading.rough, ltc_quad_lobe(quad, shading.rough));
+        }
+    }
+    return received;
+}
+
+/// What the surface receives of a disk; see ltc_disk.
+fn ltc_shading_disk(shading: LtcShading, centre: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, two_sided: bool) -> LtcReceived {
+    var received: LtcReceived;
+    let disk = ltc_disk_begin(shading.surface, centre, half_x, half_y, two_sided);
+    received.diffuse = ltc_disk_diffuse(disk);
+    if (ltc_use_ggx) {
+        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_disk_lobe(disk, shading.specular));
+    }
+    if (ltc_use_clearcoat) {
+        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_disk_lobe(disk, shading.coat));
+    }
+    if (ltc_use_sheen) {
+        received.sheen = ltc_plain_value(shading.sheen, ltc_disk_lobe(disk, shading.sheen));
+    }
+    if (ltc_use_rough_diffuse) {
+        received.rough = ltc_plain_value(shading.rough, ltc_disk_lobe(disk, shading.rough));
+    }
+    return received;
+}
+
+/// What the surface receives of a sphere; see ltc_sphere.
+fn ltc_shading_sphere(shading: LtcShading, centre: vec3<f32>, radius: f32) -> LtcReceived {
+    var received: LtcReceived;
+    let sphere = ltc_sphere_begin(shading.surface, centre, radius);
+    received.diffuse = ltc_sphere_diffuse(sphere);
+    if (ltc_use_ggx) {
+        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_sphere_lobe(sphere, shading.specular));
+    }
+    if (ltc_use_clearcoat) {
+        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_sphere_lobe(sphere, shading.coat));
+    }
+    if (ltc_use_sheen) {
+        received.sheen = ltc_plain_value(shading.sheen, ltc_sphere_lobe(sphere, shading.sheen));
+    }
+    if (ltc_use_rough_diffuse) {
+        received.rough = ltc_plain_value(shading.rough, ltc_sphere_lobe(sphere, shading.rough));
+    }
+    return received;
+}
+
+/// What the surface receives of a tube; see ltc_tube.
+fn ltc_shading_tube(shading: LtcShading, start: vec3<f32>, end: vec3<f32>, radius: f32, caps: bool) -> LtcReceived {
+    var received: LtcReceived;
+    let tube = ltc_tube_begin(shading.surface, start, end, radius, caps);
+    received.diffuse = ltc_tube_diffuse(shading.surface, tube);
+    if (ltc_use_ggx) {
+        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_tube_lobe(tube, shading.specular));
+    }
+    if (ltc_use_clearcoat) {
+        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_tube_lobe(tube, shading.coat));
+    }
+    if (ltc_use_sheen) {
+        received.sheen = ltc_plain_value(shading.sheen, ltc_tube_lobe(tube, shading.sheen));
+    }
+    if (ltc_use_rough_diffuse) {
+        received.rough = ltc_plain_value(shading.rough, ltc_tube_lobe(tube, shading.rough));
+    }
+    return received;
+}
+
+/// Starts a polygon of any number of vertices at its first one.
+fn ltc_shading_polygon_begin(shading: LtcShading, corner: vec3<f32>) -> LtcShadingPolygon {
+    var polygon: LtcShadingPolygon;
+    polygon.outline = ltc_outline_begin(shading.surface, corner);
+    polygon.specular = ltc_outline_lobe_begin();
+    polygon.coat = ltc_outline_lobe_begin();
+    polygon.sheen = ltc_outline_lobe_begin();
+    polygon.rough = ltc_outline_lobe_begin();
+    return polygon;
+}
+
+/// Adds the next vertex.
+fn ltc_shading_polygon_add(polygon: ptr<function, LtcShadingPolygon>, shading: LtcShading, corner: vec3<f32>) {
+    var outline = (*polygon).outline;
+    ltc_outline_add(&outline, shading.surface, corner);
+    (*polygon).outline = outline;
+    if (ltc_use_ggx) {
+        var specular = (*polygon).specular;
+        ltc_outline_lobe_add(&specular, outline, shading.specular);
+        (*polygon).specular = specular;
+    }
+    if (ltc_use_clearcoat) {
+        var coat = (*polygon).coat;
+        ltc_outline_lobe_add(&coat, outline, shading.coat);
+        (*polygon).coat = coat;
+    }
+    if (ltc_use_sheen) {
+        var sheen = (*polygon).sheen;
+        ltc_outline_lobe_add(&sheen, outline, shading.sheen);
+        (*polygon).sheen = sheen;
+    }
+    if (ltc_use_rough_diffuse) {
+        var rough = (*polygon).rough;
+        ltc_outline_lobe_add(&rough, outline, shading.rough);
+        (*polygon).rough = rough;
+    }
+}
+
+/// What the surface receives of the polygon whose vertices have all been added.
+fn ltc_shading_polygon_end(polygon: ptr<function, LtcShadingPolygon>, shading: LtcShading, two_sided: bool) -> LtcReceived {
+    let first = (*polygon).outline.first;
+    ltc_shading_polygon_add(polygon, shading, first);
+    let outline = (*polygon).outline;
+    var received: LtcReceived;
+    received.diffuse = ltc_outline_diffuse(outline, two_sided);
+    if (ltc_use_ggx) {
+        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_outline_lobe(outline, (*polygon).specular, two_sided));
+    }
+    if (ltc_use_clearcoat) {
+        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_outline_lobe(outline, (*polygon).coat, two_sided));
+    }
+    if (ltc_use_sheen) {
+        received.sheen = ltc_plain_value(shading.sheen, ltc_outline_lobe(outline, (*polygon).sheen, two_sided));
+    }
+    if (ltc_use_rough_diffuse) {
+        received.rough = ltc_plain_value(shading.rough, ltc_outline_lobe(outline, (*polygon).rough, two_sided));
+    }
+    return received;
+}
+
+/// Radiance that a surface reflects of a light of unit radiance; it is linear in what is received.
+///
+/// The specular part lies over the diffuse one without loss, as in most engines; sheen and coat take from what is
+/// below them, see ltc_sheen_over and ltc_coat_over.
+fn ltc_reflected(shading: LtcShading, material: LtcMaterial, received: LtcReceived) -> vec3<f32> {
+    var radiance = material.base_colour * received.diffuse;
+    if (ltc_use_rough_diffuse) {
+        let diffuse = ltc_surface_with_roughness(shading.surface, material.diffuse_roughness);
+        radiance = ltc_rough_diffuse(diffuse, shading.rough, vec3<f32>(received.diffuse, received.rough, 0.0), material.base_colour);
+    }
+    if (ltc_use_ggx) {
+        let value = vec3<f32>(received.diffuse, received.specular);
+        var specular = ltc_reflectance(value, material.normal_reflectance, material.grazing_reflectance);
+        if (ltc_use_energy_compensation) {
+            specular *= ltc_energy_compensation(shading.specular, material.normal_reflectance);
+        }
+        radiance += specular;
+    }
+    if (ltc_use_sheen) {
+        radiance = ltc_sheen_over(radiance, shading.sheen, vec3<f32>(received.diffuse, received.sheen, 0.0), material.sheen_colour);
+    }
+    if (ltc_use_clearcoat) {
+        radiance = ltc_coat_over(radiance, shading.coat, vec3<f32>(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+    }
+    return radiance;
+}
+
+/// Radiance that a surface reflects of a rectangle, or another parallelogram, that shows a picture of `texels`
+/// texels: each lobe sees the picture as blurred as it is wide.
+fn ltc_reflected_picture(shading: LtcShading, material: LtcMaterial, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool, picture: texture_2d<f32>, picture_sampler: sampler, texels: vec2<f32>) -> vec3<f32> {
+    let quad = ltc_quad_begin(shading.surface, a, b, c, d, two_sided);
+    if (!quad.reaches) {
+        return vec3<f32>(0.0);
+    }
+    // What is reflected is linear in what is received, so each part brings its own colour.
+    var diffuse: LtcReceived;
+    diffuse.diffuse = ltc_quad_diffuse(shading.surface, quad);
+    if (ltc_use_rough_diffuse) {
+        diffuse.rough = ltc_plain_value(shading.rough, ltc_quad_lobe(quad, shading.rough));
+    }
+    let place = ltc_rectangle_diffuse_lookup(shading.surface, a, b, d, ltc_quad_toward(shading.surface, quad), texels, false);
+    var radiance = ltc_reflected(shading, material, diffuse) * ltc_texture_fetch(picture, picture_sampler, place).xyz;
+    if (ltc_use_ggx) {
+        let toward = ltc_quad_lobe(quad, shading.specular);
+        var specular: LtcReceived;
+        specular.specular = ltc_lobe_value(shading.surface, shading.specular, toward);
+        let glossy = ltc_rectangle_lookup(shading.surface, shading.specular, a, b, d, toward, texels, false);
+        radiance += ltc_reflected(shading, material, specular) * ltc_texture_fetch(picture, picture_sampler, glossy).xyz;
+    }
+    if (ltc_use_clearcoat) {
+        let toward = ltc_quad_lobe(quad, shading.coat);
+        var coat: LtcReceived;
+        coat.coat = ltc_lobe_value(shading.surface, shading.coat, toward);
+        let clear = ltc_rectangle_lookup(shading.surface, shading.coat, a, b, d, toward, texels, false);
+        radiance += ltc_reflected(shading, material, coat) * ltc_texture_fetch(picture, picture_sampler, clear).xyz;
+    }
+    if (ltc_use_sheen) {
+        let toward = ltc_quad_lobe(quad, shading.sheen);
+        var sheen: LtcReceived;
+        sheen.sheen = ltc_plain_value(shading.sheen, toward);
+        let soft = ltc_rectangle_lookup(shading.surface, shading.sheen, a, b, d, toward, texels, false);
+        radiance += ltc_reflected(shading, material, sheen) * ltc_texture_fetch(picture, picture_sampler, soft).xyz;
+    }
+    return radiance;
 }

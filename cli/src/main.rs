@@ -1,11 +1,13 @@
 //! The command line of Softbox.
 
 mod bake;
+mod cost;
 mod eval;
 mod model;
 mod package;
 mod progress;
 mod render;
+mod select;
 
 use clap::{Parser, Subcommand};
 
@@ -27,6 +29,10 @@ enum Command {
     Bake(bake::BakeArguments),
     /// Render a scene file, on a device and by numerical integration.
     Render(render::RenderArguments),
+    /// Write the part of the include that a set of effects calls for, in any language.
+    Select(select::SelectArguments),
+    /// Tell what sets of effects cost, as compiled for AMD's processors; none needs to be there.
+    Cost(cost::CostArguments),
     /// Evaluate surfaces and lights given as JSON Lines.
     #[command(long_about = eval::HELP)]
     Eval(eval::EvalArguments),
@@ -42,6 +48,8 @@ fn main() {
         Command::Build(arguments) => package::build(&arguments),
         Command::Bake(arguments) => bake::bake(&arguments),
         Command::Render(arguments) => render::render(&arguments),
+        Command::Select(arguments) => select::select(&arguments),
+        Command::Cost(arguments) => cost::cost(&arguments),
         Command::Eval(arguments) => eval::eval(&arguments),
     };
     if let Err(error) = result {

@@ -1,8 +1,12 @@
-//! What a table is worth: its error against ground truth.
+//! What a table is worth: its error against ground truth; and what a set of effects costs.
 
+#[cfg(feature = "cost")]
+pub mod cost;
+#[cfg(feature = "bake")]
 mod measure;
 mod texture;
 
+#[cfg(feature = "bake")]
 pub use measure::{Accuracy, Quad, REGIONS, Region, Technique, accuracy, random_quads, shade};
 pub use texture::{
     Colouring, PICTURE_SIZE, TextureAccuracy, fetch, form_factors, lookup_sights, pictures, texture_accuracy,

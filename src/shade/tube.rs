@@ -197,7 +197,7 @@ pub fn ltc_tube_cap<R: Real>(lobe: &LtcLobe<R>, cap: R::Vec3, weight: R) -> R::V
 }
 
 /// The vector form factor of a tube in the lobe's space, of its part above both horizons.
-pub fn ltc_tube_lobe<R: Real>(_surface: &LtcSurface<R>, lobe: &LtcLobe<R>, tube: &LtcTube<R>) -> R::Vec3 {
+pub fn ltc_tube_lobe<R: Real>(tube: &LtcTube<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
     let tiny: R = R::new(LTC_TINY);
     let axis = ltc_transform(lobe, tube.axis);
@@ -271,7 +271,7 @@ pub fn ltc_tube<R: Real>(
     caps: bool,
 ) -> R::Vec3 {
     let tube = ltc_tube_begin(surface, start, end, radius, caps);
-    let toward = ltc_tube_lobe(surface, lobe, &tube);
+    let toward = ltc_tube_lobe(&tube, lobe);
     let coverage = saturate(toward.z() / lobe.share);
     let [specular, fresnel] = ltc_specular(surface, lobe, coverage, toward).into();
     R::Vec3::new(ltc_tube_diffuse(surface, &tube), specular, fresnel)

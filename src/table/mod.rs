@@ -12,37 +12,13 @@ pub use container::{Container, ContainerError};
 #[cfg(feature = "bake")]
 pub use pack::clipped_sphere;
 
+pub use crate::effects::Layer;
+
 use half::f16;
 
 use crate::shade::{
     LtcLobe, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface, ltc_table_coordinates,
 };
-
-/// What a layer of a table holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Layer {
-    /// The specular lobe's shape.
-    Shape,
-    /// The specular lobe's albedo and its Schlick part.
-    Amplitude,
-    /// The lobe of a sheen with its albedo.
-    Sheen,
-    /// The lobe of a rough diffuse surface with its albedo.
-    Diffuse,
-    /// The first half of the corrections for anisotropic surfaces, see [`AnisotropicTable`].
-    AnisotropicFirst,
-    /// The second half, right behind the first.
-    AnisotropicSecond,
-}
-
-impl Layer {
-    /// The layers that every specular surface needs, at the places where the include's
-    /// `ltc_lobe_from_table` looks for them.
-    pub const BASE: [Self; 2] = [Self::Shape, Self::Amplitude];
-
-    /// The layers that anisotropic surfaces need besides, for tables of 64 × 64 texels.
-    pub const ANISOTROPIC: [Self; 2] = [Self::AnisotropicFirst, Self::AnisotropicSecond];
-}
 
 /// A table of half-precision texels: layers of `size` × `size` texels of four numbers, at first
 /// [`Layer::BASE`] and then whatever else a renderer's surfaces need:

@@ -4,14 +4,13 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use naga::Module;
 
-use super::Target;
-use crate::WGSL_INCLUDE;
+use super::{Choice, Target, guard};
 
 /// Puts the contract on top, a guard around, and the doc comments of the WGSL source before the
 /// functions, types, members and constants that they belong to.
-pub(super) fn decorate(target: Target, module: &Module, body: &str) -> String {
+pub(super) fn decorate(include: &str, target: Target, module: &Module, body: &str, choice: Choice) -> String {
     let mut text = String::new();
-    for line in contract() {
+    for line in contract(include) {
         text.push_str(line);
         text.push('\n');
     }
@@ -19,6 +18,10 @@ pub(super) fn decorate(target: Target, module: &Module, body: &str) -> String {
     for line in usage(target) {
         text.push_str(&format!("// {line}"));
         text.push('\n');
+    }
+    match choice {
+        Choice::Made(effects) => text.push_str(&format!("//\n// Effects    {effects}\n")),
+        Choice::Macros(_) => MACROS.iter().for_each(|line| text.push_str(&format!("// {line}\n"))),
     }
     text.push_str("//\n// Translated from wgsl/ltc.wgsl; edit that file, not this one.\n");
     text.push_str("// SPDX-License-Identifier: MIT OR Apache-2.0\n\n");
@@ -28,15 +31,28 @@ pub(super) fn decorate(target: Target, module: &Module, body: &str) -> String {
         _ => "LTC_GLSL_INCLUDED",
     };
     text.push_str(&format!("#ifndef {guard}\n#define {guard}\n\n"));
-    text.push_str(documented(module, body).trim());
+    let documented = documented(include, module, body);
+    match choice {
+        Choice::Made(_) => text.push_str(documented.trim()),
+        Choice::Macros(effects) => {
+            let guarded = guard::guard(&documented, effects);
+            text.push_str(&format!("{}\n{}", guard::macros(effects), guarded.trim()));
+        }
+    }
     text.push_str(&format!("\n\n#endif // {guard}\n"));
     text
 }
 
 /// The comment at the top of the include.
-fn contract() -> impl Iterator<Item = &'static str> {
-    WGSL_INCLUDE.lines().take_while(|line| line.starts_with("//"))
+fn contract(include: &str) -> impl Iterator<Item = &str> {
+    include.lines().take_while(|line| line.starts_with("//"))
 }
+
+/// How to leave effects out.
+const MACROS: [&str; 2] = [
+    "           Define a switch, such as LTC_POLYGON, as 0 before, and what only serves that effect is",
+    "           not compiled.",
+];
 
 fn usage(target: Target) -> &'static [&'static str] {
     match target {
@@ -71,11 +87,11 @@ fn usage(target: Target) -> &'static [&'static str] {
 ///
 /// They are read from the text. naga parses them too, but gives a struct's comments to its first
 /// members instead of their own, and loses those that follow an ordinary comment.
-fn doc_comments() -> BTreeMap<String, Vec<&'static str>> {
+fn doc_comments(include: &str) -> BTreeMap<String, Vec<&str>> {
     let mut comments = BTreeMap::new();
     let mut pending = Vec::new();
     let mut structure: Option<&str> = None;
-    for line in WGSL_INCLUDE.lines() {
+    for line in include.lines() {
         let code = line.trim();
         if let Some(comment) = code.strip_prefix("///") {
             pending.push(comment.trim_end());
@@ -87,7 +103,7 @@ fn doc_comments() -> BTreeMap<String, Vec<&'static str>> {
                 structure = words.next();
                 structure.map(str::to_owned)
             }
-            (Some("fn" | "const"), _) => words.next().map(str::to_owned),
+            (Some("fn" | "const" | "override"), _) => words.next().map(str::to_owned),
             (Some(member), Some(structure)) => Some(format!("{structure}.{member}")),
             _ => None,
         };
@@ -104,8 +120,8 @@ fn doc_comments() -> BTreeMap<String, Vec<&'static str>> {
 
 /// The text with the include's comments before the functions, types, members and constants that
 /// they belong to, and with the include's own names of parameters and locals.
-fn documented(module: &Module, body: &str) -> String {
-    let comments = doc_comments();
+fn documented(include: &str, module: &Module, body: &str) -> String {
+    let comments = doc_comments(include);
     let body = with_plain_names(module, body);
     let mut text = String::new();
     let mut structure: Option<&str> = None;

@@ -4,12 +4,18 @@
 //! back, and sees to it that nothing but the library's own names reaches the file that includes it.
 
 mod decorate;
+mod fold;
+mod guard;
+mod select;
+mod visit;
 
 use naga::back::{glsl, hlsl, msl, spv};
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
-use naga::{Module, ShaderStage};
+use naga::{Arena, Block, EntryPoint, Function, Module, ShaderStage, Statement};
 
+use crate::effects::{Effects, EffectsError};
 use crate::{WGSL_EVALUATE, WGSL_INCLUDE};
+use select::{Switches, select};
 
 /// A language, dialect or format that the include is translated to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -64,6 +70,12 @@ impl core::fmt::Display for TranslateError {
 
 impl core::error::Error for TranslateError {}
 
+impl From<EffectsError> for TranslateError {
+    fn from(error: EffectsError) -> Self {
+        Self(error.to_string())
+    }
+}
+
 fn failed(what: &str, why: impl core::fmt::Display) -> TranslateError {
     TranslateError(format!("{what}: {why}"))
 }
@@ -82,22 +94,90 @@ fn validate(module: &Module) -> Result<ModuleInfo, TranslateError> {
         .map_err(|error| failed("the WGSL is not valid", error.into_inner()))
 }
 
-/// The include as a text to be included in a shader of the target language.
+/// The include as a text to be included in a shader of the target language: all of it, with a macro for
+/// each effect that leaves the effect out where it is defined as 0 before.
 ///
 /// # Errors
 ///
 /// Only if the include itself is broken; the tests translate it to every target.
 pub fn include(target: Target) -> Result<String, TranslateError> {
-    let (module, info) = parse(WGSL_INCLUDE)?;
-    let body = match target {
-        Target::Glsl450 => glsl_text(glsl::Version::Desktop(450))?,
-        Target::Glsl330 => glsl_text(glsl::Version::Desktop(330))?,
-        Target::GlslEs300 => glsl_text(glsl::Version::new_gles(300))?,
-        Target::GlslEs310 => glsl_text(glsl::Version::new_gles(310))?,
-        Target::Hlsl | Target::Unreal => hlsl_text(&module, &info)?,
-        Target::Msl => msl_text(&module, &info)?,
-    };
-    Ok(decorate::decorate(target, &module, &body))
+    switchable_from(WGSL_INCLUDE, target)
+}
+
+/// The same for another text of the include, such as one that a caller has changed. Its functions are kept
+/// where a root of the set reaches them.
+///
+/// # Errors
+///
+/// If the text is no valid WGSL.
+pub fn switchable_from(include: &str, target: Target) -> Result<String, TranslateError> {
+    let effects = Effects::declared(include);
+    let switches = effects.switches().collect();
+    let (module, info) = part(include, effects, Switches::Named(&switches))?;
+    Ok(decorate::decorate(include, target, &module, &body(target, &module, &info)?, Choice::Macros(effects)))
+}
+
+/// The part of the include that a set of effects calls for, as a text to be included in a shader of the
+/// target language.
+///
+/// # Errors
+///
+/// If the set has an effect that the include does not have.
+pub fn include_for(target: Target, effects: Effects) -> Result<String, TranslateError> {
+    include_from(WGSL_INCLUDE, target, effects)
+}
+
+/// The same for another text of the include, such as one that a caller has changed. Its functions are kept
+/// where a root of the set reaches them.
+///
+/// # Errors
+///
+/// If the text is no valid WGSL, or the set has an effect that it does not have.
+pub fn include_from(include: &str, target: Target, effects: Effects) -> Result<String, TranslateError> {
+    let switches = effects.switches().collect();
+    let (module, info) = part(include, effects, Switches::Decided(&switches))?;
+    Ok(decorate::decorate(include, target, &module, &body(target, &module, &info)?, Choice::Made(effects)))
+}
+
+/// The part of a text of the include that a set of effects calls for, as a SPIR-V 1.3 module without an
+/// entry point.
+///
+/// # Errors
+///
+/// As [`include_from`].
+pub fn library_spirv(include: &str, effects: Effects) -> Result<Vec<u8>, TranslateError> {
+    let switches = effects.switches().collect();
+    let (module, info) = part(include, effects, Switches::Decided(&switches))?;
+    spirv_module(&module, &info, None)
+}
+
+/// Who chooses among the effects of a translation.
+#[derive(Clone, Copy)]
+enum Choice {
+    /// The file that includes it, by macros for these effects.
+    Macros(Effects),
+    /// It holds these and no others.
+    Made(Effects),
+}
+
+/// What the roots of a set of effects reach.
+fn part(include: &str, effects: Effects, switches: Switches) -> Result<(Module, ModuleInfo), TranslateError> {
+    effects.check_declared(include)?;
+    let (module, _) = parse(include)?;
+    let module = select(&module, &effects.roots(), switches)?;
+    let info = validate(&module)?;
+    Ok((module, info))
+}
+
+fn body(target: Target, module: &Module, info: &ModuleInfo) -> Result<String, TranslateError> {
+    match target {
+        Target::Glsl450 => glsl_text(module, glsl::Version::Desktop(450)),
+        Target::Glsl330 => glsl_text(module, glsl::Version::Desktop(330)),
+        Target::GlslEs300 => glsl_text(module, glsl::Version::new_gles(300)),
+        Target::GlslEs310 => glsl_text(module, glsl::Version::new_gles(310)),
+        Target::Hlsl | Target::Unreal => hlsl_text(module, info),
+        Target::Msl => msl_text(module, info),
+    }
 }
 
 /// The kernel of `wgsl/evaluate.wgsl`, which evaluates an array of pairs of surfaces and lights, as
@@ -107,17 +187,30 @@ pub fn include(target: Target) -> Result<String, TranslateError> {
 ///
 /// As [`include()`].
 pub fn spirv() -> Result<Vec<u8>, TranslateError> {
-    kernel_spirv(&format!("{WGSL_INCLUDE}\n{WGSL_EVALUATE}"), "evaluate")
+    kernel_spirv(&format!("{WGSL_INCLUDE}\n{WGSL_EVALUATE}"), "evaluate", Effects::present())
 }
 
-/// A WGSL module with a compute entry point as SPIR-V 1.3, without checks that the include has no
-/// need for.
+/// What a compute entry point of a WGSL module calls for with the switches of a set of effects, as SPIR-V
+/// 1.3, without checks that the include has no need for.
 ///
 /// # Errors
 ///
-/// If `source` is not valid WGSL or has no compute entry point of that name.
-pub fn kernel_spirv(source: &str, entry_point: &str) -> Result<Vec<u8>, TranslateError> {
-    let (module, info) = parse(source)?;
+/// If `source` is not valid WGSL, has no compute entry point of that name, or has overrides other than the
+/// include's.
+pub fn kernel_spirv(source: &str, entry_point: &str, effects: Effects) -> Result<Vec<u8>, TranslateError> {
+    let (mut module, _) = parse(source)?;
+    module.entry_points.retain(|known| known.name == entry_point);
+    let switches = effects.switches().collect();
+    let module = select(&module, &[], Switches::Decided(&switches))?;
+    let info = validate(&module)?;
+    spirv_module(&module, &info, Some(entry_point))
+}
+
+fn spirv_module(
+    module: &Module,
+    info: &ModuleInfo,
+    entry_point: Option<&str>,
+) -> Result<Vec<u8>, TranslateError> {
     let options = spv::Options {
         lang_version: (1, 3),
         flags: spv::WriterFlags::DEBUG,
@@ -126,16 +219,20 @@ pub fn kernel_spirv(source: &str, entry_point: &str) -> Result<Vec<u8>, Translat
         emit_int_div_checks: false,
         ..Default::default()
     };
-    let pipeline =
-        spv::PipelineOptions { shader_stage: ShaderStage::Compute, entry_point: entry_point.to_owned() };
-    let words = spv::write_vec(&module, &info, &options, Some(&pipeline))
+    let pipeline = entry_point.map(|name| spv::PipelineOptions {
+        shader_stage: ShaderStage::Compute,
+        entry_point: name.to_owned(),
+    });
+    let words = spv::write_vec(module, info, &options, pipeline.as_ref())
         .map_err(|error| failed("no SPIR-V", error))?;
     Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
 }
 
-fn glsl_text(version: glsl::Version) -> Result<String, TranslateError> {
+fn glsl_text(module: &Module, version: glsl::Version) -> Result<String, TranslateError> {
     // naga writes GLSL for an entry point only, so one is lent to it and taken away again.
-    let (module, info) = parse(&format!("{WGSL_INCLUDE}\n@fragment fn main() {{}}\n"))?;
+    let mut module = module.clone();
+    module.entry_points.push(nothing());
+    let info = validate(&module)?;
     let options = glsl::Options {
         version,
         writer_flags: glsl::WriterFlags::INCLUDE_UNUSED_ITEMS,
@@ -163,6 +260,26 @@ fn glsl_text(version: glsl::Version) -> Result<String, TranslateError> {
         .lines()
         .filter(|line| !line.starts_with("#version") && !line.starts_with("precision "))
         .fold(String::new(), |text, line| text + line + "\n"))
+}
+
+/// A fragment entry point that does nothing.
+fn nothing() -> EntryPoint {
+    EntryPoint {
+        name: "main".to_owned(),
+        stage: ShaderStage::Fragment,
+        early_depth_test: None,
+        workgroup_size: [0; 3],
+        workgroup_size_overrides: None,
+        function: Function {
+            name: Some("main".to_owned()),
+            expressions: Arena::new(),
+            body: Block::from_vec(vec![Statement::Return { value: None }]),
+            ..Function::default()
+        },
+        mesh_info: None,
+        task_payload: None,
+        incoming_ray_payload: None,
+    }
 }
 
 fn hlsl_text(module: &Module, info: &ModuleInfo) -> Result<String, TranslateError> {

@@ -1,0 +1,84 @@
+//! `softbox select`.
+
+use std::io::{ErrorKind, Write};
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use softbox::effects::{self, Effect, Effects};
+use softbox::translate::{self, Target};
+
+use crate::bake::write_file;
+
+#[derive(Args)]
+pub struct SelectArguments {
+    /// The set of effects, such as quad,polygon+ggx+two-sided.
+    #[arg(value_name = "SET", required_unless_present = "list")]
+    effects: Option<String>,
+    /// Language of the text.
+    #[arg(long, value_enum, default_value = "wgsl")]
+    target: Language,
+    /// File to write; standard output by default.
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// Print all effects with what they mean instead.
+    #[arg(long, conflicts_with_all = ["effects", "out"])]
+    list: bool,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Language {
+    Wgsl,
+    #[value(name = "glsl-450")]
+    Glsl450,
+    #[value(name = "glsl-330")]
+    Glsl330,
+    #[value(name = "glsl-es300")]
+    GlslEs300,
+    #[value(name = "glsl-es310")]
+    GlslEs310,
+    Hlsl,
+    Unreal,
+    Msl,
+}
+
+pub fn select(arguments: &SelectArguments) -> anyhow::Result<()> {
+    let text = match &arguments.effects {
+        Some(effects) => selected(effects.parse()?, arguments.target)?,
+        None => list(),
+    };
+    match &arguments.out {
+        Some(path) => write_file(path, text.as_bytes())?,
+        None => print_text(&text)?,
+    }
+    Ok(())
+}
+
+/// Prints a whole text; that its reader stops early is no error.
+pub fn print_text(text: &str) -> anyhow::Result<()> {
+    match std::io::stdout().write_all(text.as_bytes()) {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error.into()),
+        _ => Ok(()),
+    }
+}
+
+fn selected(effects: Effects, language: Language) -> anyhow::Result<String> {
+    let target = match language {
+        Language::Wgsl => return Ok(effects::wgsl(effects)?),
+        Language::Glsl450 => Target::Glsl450,
+        Language::Glsl330 => Target::Glsl330,
+        Language::GlslEs300 => Target::GlslEs300,
+        Language::GlslEs310 => Target::GlslEs310,
+        Language::Hlsl => Target::Hlsl,
+        Language::Unreal => Target::Unreal,
+        Language::Msl => Target::Msl,
+    };
+    Ok(translate::include_for(target, effects)?)
+}
+
+fn list() -> String {
+    let present = Effects::present();
+    Effect::all().fold(String::new(), |list, effect| {
+        let absent = if present.contains(effect) { "" } else { " (not in this include)" };
+        list + &format!("{:20} {}{absent}\n", effect.name(), effect.entry().meaning)
+    })
+}
