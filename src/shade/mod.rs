@@ -28,6 +28,7 @@ mod real;
 mod surface;
 mod texture;
 mod tube;
+mod whole;
 
 pub use anisotropic::{
     LTC_ALPHA_FLOOR, LTC_ANISOTROPIC_KNEE, LTC_ANISOTROPIC_SIZE, LtcAnisotropy, ltc_anisotropic_alpha,
@@ -63,8 +64,8 @@ pub use quad::{
 pub use real::{Real, Vector, angle_excess, hyperbolic_excess};
 pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
-    ltc_planar_lobe, ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular, ltc_surface,
-    ltc_table_coordinates, ltc_transform, ltc_transform_normal, ltc_value,
+    ltc_lobe_value, ltc_planar_lobe, ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular,
+    ltc_surface, ltc_table_coordinates, ltc_transform, ltc_transform_normal, ltc_value,
 };
 pub use texture::{
     LTC_LOOKUP, LookupConstants, LtcLookup, ltc_lookup, ltc_lookup_with, ltc_outlined,
@@ -73,4 +74,8 @@ pub use texture::{
 pub use tube::{
     LtcTube, ltc_root, ltc_tube, ltc_tube_begin, ltc_tube_cap, ltc_tube_cap_begin, ltc_tube_diffuse,
     ltc_tube_line, ltc_tube_lobe, ltc_tube_share,
+};
+pub use whole::{
+    LtcMaterial, LtcReceived, LtcShading, ltc_material, ltc_plain_value, ltc_reflected, ltc_shading,
+    ltc_shading_disk, ltc_shading_polygon, ltc_shading_quad, ltc_shading_sphere, ltc_shading_tube,
 };

@@ -196,9 +196,14 @@ pub fn ltc_value<R: Real>(
     form_factor: R,
     toward: R::Vec3,
 ) -> R::Vec3 {
-    let coverage = (toward.z() / lobe.share).clamp(R::new(0.0), R::new(1.0));
-    let [specular, fresnel] = ltc_specular(surface, lobe, coverage, toward).into();
+    let [specular, fresnel] = ltc_lobe_value(surface, lobe, toward).into();
     R::Vec3::new(form_factor, specular, fresnel)
+}
+
+/// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
+pub fn ltc_lobe_value<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, toward: R::Vec3) -> R::Vec2 {
+    let coverage = (toward.z() / lobe.share).clamp(R::new(0.0), R::new(1.0));
+    ltc_specular(surface, lobe, coverage, toward)
 }
 
 /// The form factor of the light that arrives, from a signed one; `front` tells whether the light shows its
