@@ -6,8 +6,10 @@ mod common;
 #[path = "common/sets.rs"]
 mod sets;
 
-use softbox::device::{Device, Program};
+use softbox::device::{Batch, Device, EvaluateSurface, Program};
 use softbox::effects::{Effect, Effects};
+use softbox::light::Light;
+use softbox::report::{Region, random_quads};
 use softbox::table::Table;
 use softbox::translate;
 
@@ -58,4 +60,55 @@ fn selected_kernels_give_what_overrides_give() {
         assert!(largest <= 1e-6, "{effects}: the diffuse value is {largest:e} from that of everything");
         println!("{effects}: {lit} of {} cases are lit", cases.len());
     }
+}
+
+/// What the cheap horizon costs in accuracy, on quads of which many straddle the horizon.
+#[test]
+fn a_cheap_horizon_is_off_by_as_much_as_it_says() {
+    let device = Device::open(wgpu::Backends::VULKAN).unwrap_or_else(|error| panic!("{error}"));
+    let table = Table::default();
+    let region = Region { roughness: (0.1, 1.0), cosine: (0.05, 1.0) };
+    let quads = random_quads(region, 20_000);
+    let mut batch = Batch::default();
+    for (index, quad) in quads.iter().enumerate() {
+        batch.surfaces.push(EvaluateSurface {
+            roughness: quad.roughness as f32,
+            normal: [0.0, 0.0, 1.0],
+            view: quad.view.as_vec3().into(),
+            ..EvaluateSurface::default()
+        });
+        let light = batch.add_light(&Light::Polygon { points: quad.corners.to_vec(), two_sided: false });
+        batch.pairs.push([index as u32, light]);
+    }
+    let exact = format!("{}\n{}", softbox::WGSL_INCLUDE, softbox::WGSL_EVALUATE);
+    let declared = "override ltc_use_cheap_horizon: bool = ";
+    let cheap = exact.replace(&format!("{declared}false;"), &format!("{declared}true;"));
+    assert_ne!(exact, cheap);
+    let [exact, cheap] = [exact, cheap].map(|text| {
+        device.evaluate(&Program::wgsl(text), &table, &batch).unwrap_or_else(|error| panic!("{error}"))
+    });
+    let (mut largest, mut above) = (0.0_f32, 0);
+    let (mut errors, mut sums) = ([0.0_f64; 3], [0.0_f64; 3]);
+    for ((quad, exact), cheap) in quads.iter().zip(&exact).zip(&cheap) {
+        let difference = (exact[0] - cheap[0]).abs();
+        assert!(cheap.iter().all(|value| (0.0..=1.0).contains(value)), "{cheap:?}: {quad:?}");
+        // The proxy is round: it is sure to be above where the light's own cone is well above.
+        let lowest = quad.corners.iter().map(|corner| corner.normalize().z).fold(1.0, f64::min);
+        let widest = quad.corners.iter().map(|corner| corner.normalize().dot(quad.corners[0].normalize()));
+        if lowest > 0.0 && widest.fold(1.0, f64::min) > (1.0 - lowest * lowest).sqrt() {
+            assert!(difference < 2e-6, "{exact:?} and {cheap:?}: {quad:?}");
+            above += 1;
+        }
+        largest = largest.max(difference);
+        for k in 0..3 {
+            errors[k] += f64::from(exact[k] - cheap[k]).abs();
+            sums[k] += f64::from(exact[k]);
+        }
+    }
+    let [diffuse, specular, fresnel] = [0, 1, 2].map(|k| 100.0 * errors[k] / sums[k]);
+    println!(
+        "cheap horizon: {diffuse:.2} / {specular:.2} / {fresnel:.2} %, diffuse at most {largest:.3}, {above} above"
+    );
+    assert!(above > 1000 && largest < 0.1, "{above}, {largest}");
+    assert!(diffuse < 2.0 && specular < 1.5 && fresnel < 10.0, "{diffuse} {specular} {fresnel}");
 }

@@ -90,7 +90,7 @@ fn case(random: &mut Random, index: usize) -> Case {
         a: a.into(),
         kind,
         b: b.into(),
-        flag: u32::from(index % 3 == 0),
+        flag: u32::from(index.is_multiple_of(3)),
         c: c.into(),
         d: d.into(),
         ..Case::default()

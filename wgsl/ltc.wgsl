@@ -806,7 +806,8 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
 /// With the switch for a cheap horizon a light is not cut. A round light of the same vector form factor stands in for
 /// it where a horizon would cut it (Hill and Heitz 2016, "Real-Time Area Lighting: a Journey from Research to
 /// Production"), and lobes are cut at their own horizon only. A light above the horizons has the same value; one that
-/// straddles them is off by up to 0.1, and light may come from a little below the surface.
+/// straddles them is off by up to 0.07, by 1.8 % of the mean on random quads, and light may come from a little below the
+/// surface.
 fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
     let quad = ltc_quad_begin(surface, a, b, c, d, two_sided);
     if (!quad.reaches) {

@@ -5,6 +5,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::Args;
+use softbox::effects::Effects;
 use softbox::fit::Layout;
 use softbox::package::{self, Contents, Step};
 
@@ -22,6 +23,10 @@ pub struct BuildArguments {
     table_size: usize,
     #[command(flatten)]
     model: ModelArguments,
+    /// What the shaders can do, such as quad,disk+ggx,clearcoat+two-sided: the package then holds that part of the
+    /// include, and a table with the layers that it needs. `softbox select --list` names all effects.
+    #[arg(long, value_name = "SET", conflicts_with = "update")]
+    effects: Option<Effects>,
     /// Write the translations and raw tables over those of a repository instead of a package.
     #[arg(long, value_name = "REPOSITORY", conflicts_with = "out")]
     update: Option<PathBuf>,
@@ -31,7 +36,8 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     let started = Instant::now();
     check_size(arguments.table_size)?;
     let family = arguments.model.family()?;
-    let contents = Contents { table_size: arguments.table_size, ..Contents::default() };
+    let contents =
+        Contents { table_size: arguments.table_size, effects: arguments.effects, ..Contents::default() };
     let bar = progress::bar("Building");
     let shown = Mutex::new(None);
     let package = package::build(&family, &contents, &|step, share| {
@@ -54,7 +60,9 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     if let Some(repository) = &arguments.update {
         let committed = ["glsl/", "hlsl/", "msl/", "spirv/"];
         for (path, bytes) in &package.files {
-            if committed.iter().any(|folder| path.starts_with(folder)) || path.ends_with(".bin") {
+            if committed.iter().any(|folder| path.starts_with(folder))
+                || (path.ends_with(".bin") && !path.ends_with("_all.bin"))
+            {
                 let path = repository.join(path);
                 if let Some(folder) = path.parent() {
                     std::fs::create_dir_all(folder)?;

@@ -91,6 +91,12 @@ impl Effects {
         Self::declared(crate::WGSL_INCLUDE)
     }
 
+    /// What the include does as it stands: everything but what trades accuracy for cost.
+    pub fn standing() -> Self {
+        let present = Self::present();
+        present.iter().filter(|effect| !effect.is_default()).fold(present, Self::without)
+    }
+
     /// What a text of the include has.
     pub fn declared(include: &str) -> Self {
         Self::sustained(bits(Effect::all().filter(|effect| effect.is_declared(include))))

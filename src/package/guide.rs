@@ -9,7 +9,7 @@ pub(super) fn guide(contents: &Contents, package: &Package) -> String {
     let size = contents.table_size;
     let mut text = String::from(
         "# Softbox: area lights by linearly transformed cosines\n\n\
-         Light from polygons on rough surfaces, in closed form and without noise. The contract (spaces,\n\
+         Light from polygons, disks, spheres and tubes on rough surfaces, in closed form and without noise. The contract (spaces,\n\
          winding, units, roughness) stands at the top of each shader file, the meaning and the error of\n\
          each function above it.\n\n\
          ## Files\n\n| file | for |\n|---|---|\n| `wgsl/ltc.wgsl` | WebGPU, wgpu, Bevy, three.js |\n",
@@ -19,31 +19,38 @@ pub(super) fn guide(contents: &Contents, package: &Package) -> String {
         text.push_str(&format!("| `{path}` | {purpose} |\n"));
     }
     text.push_str(
-        "| `spirv/ltc_evaluate.spv` | Vulkan: a kernel that evaluates pairs of surfaces and lights; its source is `wgsl/evaluate.wgsl` |\n",
+        "| `spirv/ltc_evaluate.spv` | Vulkan: a kernel that evaluates pairs of surfaces and lights, one lobe each |\n",
     );
     let names: Vec<String> =
         contents.containers.iter().map(|container| format!("`.{}`", container.extension())).collect();
     text.push_str(&format!("| `table/ltc` ({}) | the table for these shaders |\n", names.join(", ")));
+    if contents.effects.is_none() && size == crate::TABLE_SIZE {
+        text.push_str("| `table/ltc_all` (the same) | the same with the layers of every surface |\n");
+    }
     if contents.compatible {
         text.push_str(
             "| `table/ltc_compatible` (the same) | the table for an engine that already implements the published technique: swap the file |\n",
         );
     }
+    text.push_str(&effects(contents));
+    let layers = contents.effects.map_or(2, |effects| effects.layers().len());
     text.push_str(&format!(
         "\n## Use\n\n\
-         1. Create a texture array of {size} × {size} texels and 2 layers, RGBA16F, without mipmaps, from\n   \
+         1. Create a texture array of {size} × {size} texels and {layers} layers, RGBA16F, without mipmaps, from\n   \
             `table/ltc`, and a sampler that filters linearly and clamps to the edge.\n\
          2. For each surface point: `ltc_surface`, then `ltc_lobe_from_table`. Both serve all lights.\n\
-         3. For each light: `ltc_quad` for a convex quad, or `ltc_polygon_begin`, `ltc_polygon_add` for each\n   \
-            further vertex and `ltc_polygon_end`. They return (diffuse, specular, fresnel).\n\
+         3. For each light: `ltc_quad` for a convex quad, `ltc_disk`, `ltc_sphere`, `ltc_tube`, or `ltc_polygon_begin`,\n   \
+            `ltc_polygon_add` for each further vertex and `ltc_polygon_end`. They return (diffuse, specular, fresnel).\n\
          4. Reflected radiance = light radiance × (base colour × diffuse\n   \
             + `ltc_reflectance(value, F0, F90)`).\n\n\
+         For surfaces with more parts: `ltc_shading` in step 2, `ltc_shading_quad` and so on in step 3,\n\
+         `ltc_reflected` in step 4.\n\n\
          In WGSL:\n\n\
          ```wgsl\n\
          let surface = ltc_surface(position, normal, eye - position, roughness);\n\
          let lobe = ltc_lobe_from_table(surface, table, table_sampler, {size}.0);\n\
          let value = ltc_quad(surface, lobe, corner_a, corner_b, corner_c, corner_d, false);\n\
-         let reflected = radiance * (base_color * value.x + ltc_reflectance(value, f0, f90));\n\
+         let reflected = radiance * (base_colour * value.x + ltc_reflectance(value, f0, f90));\n\
          ```\n\n\
          GLSL takes one `sampler2DArray` in place of texture and sampler. To sample the table in another\n\
          way, fetch layers 0 and 1 at `ltc_table_coordinates(surface, {size}.0)` and call `ltc_lobe`.\n\n\
@@ -76,13 +83,29 @@ pub(super) fn guide(contents: &Contents, package: &Package) -> String {
     }
     text.push_str(
         "\n## Limits\n\n\
-         No shadows. Lights have one radiance over their surface. Below roughness 0.02 the lobe stays that\n\
+         No shadows. Below roughness 0.02 the lobe stays that\n\
          of 0.02. Polygons are planar and simple. No Metal compiler has seen `msl/ltc.metal`.\n\n\
          ## Sources\n\n\
          Heitz, Dupuy, Hill and Neubelt 2016, *Real-Time Polygonal-Light Shading with Linearly Transformed\n\
          Cosines*; Lambert 1760; Schlick 1994; Duff et al. 2017. MIT or Apache-2.0, at your choice.\n",
     );
     text
+}
+
+/// What the shaders hold and how to have less of it.
+fn effects(contents: &Contents) -> String {
+    let Some(effects) = contents.effects else {
+        return "\n## Effects\n\n\
+             The shaders hold every light and every surface. What a scene does not call for costs nothing: in WGSL set\n\
+             the overrides `ltc_use_…` to false, elsewhere define the macros `LTC_…` as 0 before the file is included.\n\
+             The list stands at the top of each file.\n"
+            .to_owned();
+    };
+    let layers = effects.layers();
+    let layers: Vec<String> =
+        layers.iter().enumerate().map(|(index, layer)| format!("{index} {layer:?}")).collect();
+    let layers = if layers.is_empty() { "none".to_owned() } else { layers.join(", ") };
+    format!("\n## Effects\n\nThese shaders hold what `{effects}` calls for. Layers of the table: {layers}.\n")
 }
 
 fn table(title: &str, measured: &Measured) -> String {

@@ -5,9 +5,10 @@ mod write;
 
 pub use write::{WriteError, write_folder};
 
+use crate::effects::{self, Effects, EffectsError};
 use crate::fit::{self, Family, Layout, Settings};
 use crate::report::{self, Accuracy, REGIONS, Technique};
-use crate::table::{Container, ContainerError, Table};
+use crate::table::{AnisotropicTable, Container, ContainerError, Layer, Table};
 use crate::translate::{self, Target, TranslateError};
 
 /// The file of a package that names all its files, itself included, a line each.
@@ -24,6 +25,9 @@ pub struct Contents {
     pub targets: Vec<Target>,
     /// Whether to bake the table for code that implements the published technique, too.
     pub compatible: bool,
+    /// What the shaders can do and which layers the table has; the whole include, with its switches, and a table for
+    /// each of two uses where nothing is chosen.
+    pub effects: Option<Effects>,
     /// Quads of each region on which the tables are measured; 0 for no measurement.
     pub quads: usize,
 }
@@ -35,6 +39,7 @@ impl Default for Contents {
             containers: Container::ALL.to_vec(),
             targets: Target::ALL.to_vec(),
             compatible: true,
+            effects: None,
             quads: 200,
         }
     }
@@ -69,6 +74,20 @@ pub enum PackageError {
     /// A table could not be written in its format.
     #[error(transparent)]
     Container(#[from] ContainerError),
+    /// The include lacks an effect.
+    #[error(transparent)]
+    Effects(#[from] EffectsError),
+    /// Anisotropic surfaces in a table that cannot have them.
+    #[error(
+        "the set \"{effects}\" has anisotropic surfaces, whose layers have {} texels along each axis, not {size}; leave the table's size at that or anisotropic out",
+        crate::TABLE_SIZE
+    )]
+    Anisotropic {
+        /// The set.
+        effects: Effects,
+        /// Texels along each axis that were asked for.
+        size: usize,
+    },
 }
 
 /// A step of [`build`].
@@ -104,9 +123,24 @@ pub fn build(
         let layout = settings.layout;
         let fitted = fit::bake(family, settings, &|share| progress(Step::Bake(layout), share));
         let table = Table::pack(&fitted);
-        for container in &contents.containers {
-            let path = format!("table/{name}.{}", container.extension());
-            package.files.push((path, container.write(&table)?));
+        let mut written = vec![(name.to_owned(), table.clone())];
+        if technique == Technique::Include {
+            match contents.effects {
+                Some(effects) => written[0].1 = with_layers(table.clone(), effects, progress)?,
+                None if size == crate::TABLE_SIZE => {
+                    written.push((
+                        format!("{name}_all"),
+                        with_layers(table.clone(), Effects::standing(), progress)?,
+                    ));
+                }
+                None => {}
+            }
+        }
+        for (name, table) in &written {
+            for container in &contents.containers {
+                let path = format!("table/{name}.{}", container.extension());
+                package.files.push((path, container.write(table)?));
+            }
         }
         if contents.quads > 0 {
             let measured = measure(&table, technique, family, contents.quads, &|share| {
@@ -119,15 +153,32 @@ pub fn build(
         }
     }
     let mut text = |path: &str, text: String| package.files.push((path.to_owned(), text.into_bytes()));
-    text("wgsl/ltc.wgsl", crate::WGSL_INCLUDE.to_owned());
-    text("wgsl/evaluate.wgsl", crate::WGSL_EVALUATE.to_owned());
+    let include = match contents.effects {
+        Some(effects) => effects::wgsl(effects)?,
+        None => crate::WGSL_INCLUDE.to_owned(),
+    };
+    text("wgsl/ltc.wgsl", include);
+    if contents.effects.is_none() {
+        text("wgsl/evaluate.wgsl", crate::WGSL_EVALUATE.to_owned());
+    }
     for (index, target) in contents.targets.iter().enumerate() {
-        text(target.path(), translate::include(*target)?);
+        let translated = match contents.effects {
+            Some(effects) => translate::include_for(*target, effects)?,
+            None => translate::include(*target)?,
+        };
+        text(target.path(), translated);
         progress(Step::Translate, (index + 1) as f64 / contents.targets.len() as f64);
     }
     text("LICENSE-MIT", include_str!("../../LICENSE-MIT").to_owned());
     text("LICENSE-APACHE", include_str!("../../LICENSE-APACHE").to_owned());
-    package.files.push((translate::SPIRV_PATH.to_owned(), translate::spirv()?));
+    let kernel = match contents.effects {
+        Some(effects) => {
+            let source = format!("{}\n{}", crate::WGSL_INCLUDE, crate::WGSL_EVALUATE);
+            translate::kernel_spirv(&source, "evaluate", effects)?
+        }
+        None => translate::spirv()?,
+    };
+    package.files.push((translate::SPIRV_PATH.to_owned(), kernel));
     package.files.push(("README.md".to_owned(), guide::guide(contents, &package).into_bytes()));
     package.files.push((MANIFEST.to_owned(), Vec::new()));
     package.files.sort();
@@ -138,6 +189,37 @@ pub fn build(
         }
     }
     Ok(package)
+}
+
+/// A table with the further layers that `effects` need. Those of the embedded size are embedded, too.
+fn with_layers(
+    table: Table,
+    effects: Effects,
+    progress: &(dyn Fn(Step, f64) + Sync),
+) -> Result<Table, PackageError> {
+    let size = table.size();
+    let embedded = size == crate::TABLE_SIZE;
+    let layers = effects.layers();
+    let bake = |settings: Settings, family: &dyn Family| {
+        let layout = settings.layout;
+        Table::pack(&fit::bake(family, settings, &|share| progress(Step::Bake(layout), share)))
+    };
+    let mut table = table;
+    if layers.contains(&Layer::Sheen) {
+        let sheen = if embedded { Table::sheen() } else { bake(Settings::sheen(size), &fit::sheen) };
+        table = table.with(&sheen);
+    }
+    if layers.contains(&Layer::Diffuse) {
+        let diffuse = if embedded { Table::diffuse() } else { bake(Settings::diffuse(size), &fit::diffuse) };
+        table = table.with(&diffuse);
+    }
+    if layers.contains(&Layer::AnisotropicFirst) {
+        if !embedded {
+            return Err(PackageError::Anisotropic { effects, size });
+        }
+        table = table.with(AnisotropicTable::default().layers());
+    }
+    Ok(table)
 }
 
 /// Measures a table in every region.

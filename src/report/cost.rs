@@ -24,16 +24,14 @@ pub const FAMILIES: [&str; 3] = ["navi10", "navi21", "gfx1100"];
 
 /// Sets that scenes commonly call for. Those of which the include lacks something are left out.
 pub fn typical() -> Vec<Effects> {
-    const TYPICAL: [&str; 20] = [
+    const TYPICAL: [&str; 18] = [
         "none",
         "quad",
         "polygon",
-        "quad,polygon",
-        "quad+two-sided",
         "quad+ggx",
         "quad+ggx+two-sided",
+        "quad+ggx+cheap-horizon",
         "polygon+ggx",
-        "polygon+ggx+two-sided",
         "quad,polygon+ggx",
         "disk+ggx",
         "sphere+ggx",
@@ -48,7 +46,7 @@ pub fn typical() -> Vec<Effects> {
     ];
     let present = Effects::present();
     let known = TYPICAL.iter().filter_map(|text| text.parse::<Effects>().ok());
-    known.filter(|effects| present.is_superset(*effects)).chain([present]).collect()
+    known.filter(|effects| present.is_superset(*effects)).chain([Effects::standing()]).collect()
 }
 
 /// The kernel for a set of effects, as SPIR-V.

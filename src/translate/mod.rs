@@ -187,7 +187,7 @@ fn body(target: Target, module: &Module, info: &ModuleInfo) -> Result<String, Tr
 ///
 /// As [`include()`].
 pub fn spirv() -> Result<Vec<u8>, TranslateError> {
-    kernel_spirv(&format!("{WGSL_INCLUDE}\n{WGSL_EVALUATE}"), "evaluate", Effects::present())
+    kernel_spirv(&format!("{WGSL_INCLUDE}\n{WGSL_EVALUATE}"), "evaluate", Effects::standing())
 }
 
 /// What a compute entry point of a WGSL module calls for with the switches of a set of effects, as SPIR-V
