@@ -3314,6 +3314,17 @@ LtcMaterial ltc_material(float3 base_colour, float roughness_3, float3 normal_re
     return ltcmaterial;
 }
 
+// Whether a surface point lies within `range` of the centre of a light, beyond which the light may be skipped; see
+// softbox::light::Light::range.
+bool ltc_in_range(float3 position, float3 centre, float range)
+{
+    float3 away = ((centre * LTC_HEADROOM) - (position * LTC_HEADROOM));
+    const float _e8 = ltc_extent(away);
+    float3 scaled = (away * (1.0 / max(_e8, LTC_TINY)));
+    float squared = dot(scaled, scaled);
+    return ((_e8 * (squared * rsqrt(max(squared, LTC_TINY)))) <= (range * LTC_HEADROOM));
+}
+
 // The lobes of a surface point. `normal` and `view` are as for ltc_surface, the table as for ltc_lobe_from_table,
 // with the layers of the effects that are on.
 LtcShading ltc_shading(float3 position, float3 normal, float3 view, LtcMaterial material, LtcLayers layers, Texture2DArray<float4> table, SamplerState table_sampler, float table_size)

@@ -3621,6 +3621,20 @@ LtcMaterial ltc_material(
     return _e28;
 }
 
+// Whether a surface point lies within `range` of the centre of a light, beyond which the light may be skipped; see
+// softbox::light::Light::range.
+bool ltc_in_range(
+    metal::float3 position,
+    metal::float3 centre,
+    float range
+) {
+    metal::float3 away = (centre * LTC_HEADROOM) - (position * LTC_HEADROOM);
+    float _e8 = ltc_extent(away);
+    metal::float3 scaled = away * (1.0 / metal::max(_e8, LTC_TINY));
+    float squared = metal::dot(scaled, scaled);
+    return (_e8 * (squared * metal::rsqrt(metal::max(squared, LTC_TINY)))) <= (range * LTC_HEADROOM);
+}
+
 // The lobes of a surface point. `normal` and `view` are as for ltc_surface, the table as for ltc_lobe_from_table,
 // with the layers of the effects that are on.
 LtcShading ltc_shading(

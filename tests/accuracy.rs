@@ -1,9 +1,14 @@
 //! The errors that the README states hold, against numerical integration.
 
+use glam::DVec3;
+use rayon::prelude::*;
 use softbox::brdf::{Brdf, Ggx};
 use softbox::fit::{self, Settings};
-use softbox::report::{Accuracy, Region, Technique, accuracy, random_quads};
+use softbox::light::{Light, light_value};
+use softbox::report::{Accuracy, Quad, Region, Technique, accuracy, random_quads};
+use softbox::shade::ltc_surface;
 use softbox::table::Table;
+use softbox::truth;
 
 fn model(roughness: f64) -> Box<dyn Brdf> {
     Box::new(Ggx::new(roughness.max(0.02).powi(2)))
@@ -93,4 +98,82 @@ fn a_table_of_another_model_is_condemned() {
     let table = Table::pack(&fit::bake(&squared, settings, &|_| ()));
     let measured = accuracy(&table, Technique::Include, &model, &random_quads(uniform(), 300));
     assert!(measured.specular > 0.2, "{measured:?}");
+}
+
+/// The other lights are no worse than quads of the same table, tubes no worse than twice as much.
+#[test]
+fn every_light_keeps_its_figures() {
+    let table = Table::default();
+    let quads = random_quads(uniform(), 1500);
+    type Shape = fn(&Quad) -> Light;
+    let shapes: [(&str, Shape, [f64; 4]); 4] = [
+        // Bounds of diffuse, specular, Schlick's part and a dielectric, in per cent.
+        (
+            "quads",
+            |quad| Light::Polygon { points: quad.corners.to_vec(), two_sided: false },
+            [1e-9, 2.6, 8.6, 5.9],
+        ),
+        (
+            "disks",
+            |quad| {
+                let [a, b, c, d] = quad.corners;
+                let center = 0.25 * (a + b + c + d);
+                Light::Disk { center, half_x: 0.5 * (b - a), half_y: 0.5 * (d - a), two_sided: true }
+            },
+            [1e-9, 2.8, 8.6, 6.0],
+        ),
+        (
+            "spheres",
+            |quad| {
+                let [a, b, c, _] = quad.corners;
+                Light::Sphere {
+                    center: 0.5 * (a + c),
+                    radius: (0.5 * a.distance(b)).min(0.9 * (0.5 * (a + c)).length()),
+                }
+            },
+            [1e-9, 2.2, 6.9, 4.8],
+        ),
+        (
+            "tubes",
+            |quad| {
+                let [a, b, ..] = quad.corners;
+                let side = (b - a).normalize();
+                let along = (-a.dot(side)).clamp(0.0, a.distance(b));
+                Light::Tube { start: a, end: b, radius: (a + side * along).length() / 16.0, caps: false }
+            },
+            [0.11, 6.6, 11.3, 9.6],
+        ),
+    ];
+    for (name, shape, bounds) in shapes {
+        let rows: Vec<[f64; 8]> = quads
+            .par_iter()
+            .map(|quad| {
+                let light = shape(quad);
+                let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, quad.view, quad.roughness);
+                let value = light_value(&surface, &table.lobe(&surface), &light);
+                let brdf = Ggx::new(quad.roughness * quad.roughness);
+                let exact = truth::light(&brdf, quad.view, &light, 1e-6);
+                let dielectric = |specular: f64, fresnel: f64| 0.04 * (specular - fresnel) + fresnel;
+                let pairs = [
+                    (value.x, exact.diffuse),
+                    (value.y, exact.specular),
+                    (value.z, exact.fresnel),
+                    (dielectric(value.y, value.z), dielectric(exact.specular, exact.fresnel)),
+                ];
+                core::array::from_fn(|k| {
+                    let (value, exact) = pairs[k / 2];
+                    if k % 2 == 0 { (value - exact).abs() } else { exact }
+                })
+            })
+            .collect();
+        let sum = |k: usize| rows.iter().map(|row| row[k]).sum::<f64>();
+        let errors: [f64; 4] = core::array::from_fn(|k| 100.0 * sum(2 * k) / sum(2 * k + 1));
+        println!(
+            "{name}: diffuse {:.1e} %, specular {:.2} %, Schlick {:.2} %, dielectric {:.2} %",
+            errors[0], errors[1], errors[2], errors[3]
+        );
+        for (error, bound) in errors.iter().zip(bounds) {
+            assert!(*error < bound.max(1e-4), "{name}: {errors:?} exceed {bounds:?}");
+        }
+    }
 }

@@ -5,7 +5,7 @@ mod common;
 use common::Random;
 use glam::DVec3;
 use softbox::light::{Light, LightError, light_value};
-use softbox::shade::ltc_surface;
+use softbox::shade::{ltc_in_range, ltc_surface};
 use softbox::table::Table;
 
 fn polygon(points: &[[f64; 3]]) -> Light {
@@ -117,6 +117,11 @@ fn nothing_above_the_threshold_lies_out_of_range() {
             if view.dot(normal) <= 0.0 {
                 continue;
             }
+            assert!(
+                !ltc_in_range::<f64>(position, centre, range),
+                "{position} is beyond {range} of {centre}"
+            );
+            assert!(ltc_in_range::<f64>(position, centre, 1.3 * range));
             let surface = ltc_surface::<f64>(position, normal, view, random.between(roughness, 1.0));
             let value = light_value(&surface, &table.lobe(&surface), &light);
             let reflected = radiance * if specular { value.y } else { value.x };

@@ -39,6 +39,12 @@ fn public_names() -> Vec<&'static str> {
         .collect()
 }
 
+/// Whether the include uses a constant with other constants only, so that a translation holds but their product.
+fn is_folded(name: &str) -> bool {
+    let mut uses = softbox::WGSL_INCLUDE.lines().filter(|line| line.starts_with(' ') && line.contains(name));
+    name.starts_with("LTC_") && uses.all(|line| line.matches("LTC_").count() >= 2)
+}
+
 #[test]
 fn public_names_are_kept() {
     let names = public_names();
@@ -50,7 +56,7 @@ fn public_names_are_kept() {
     for target in Target::ALL {
         let text = include(target);
         let words: BTreeSet<&str> = text.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
-        for name in &names {
+        for name in names.iter().filter(|name| !is_folded(name)) {
             assert!(words.contains(name), "{target:?} lost {name}");
         }
     }
@@ -127,7 +133,7 @@ fn every_function_keeps_its_comment() {
     for target in Target::ALL {
         let text = include(target);
         let lines: Vec<&str> = text.lines().collect();
-        for name in public_names() {
+        for name in public_names().into_iter().filter(|name| !is_folded(name)) {
             let at = lines
                 .iter()
                 .position(|line| {

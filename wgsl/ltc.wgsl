@@ -2717,6 +2717,16 @@ fn ltc_material(base_colour: vec3<f32>, roughness: f32, normal_reflectance: vec3
     return material;
 }
 
+/// Whether a surface point lies within `range` of the centre of a light, beyond which the light may be skipped; see
+/// softbox::light::Light::range.
+fn ltc_in_range(position: vec3<f32>, centre: vec3<f32>, range: f32) -> bool {
+    let away = centre * LTC_HEADROOM - position * LTC_HEADROOM;
+    let extent = ltc_extent(away);
+    let scaled = away * (1.0 / max(extent, LTC_TINY));
+    let squared = dot(scaled, scaled);
+    return extent * (squared * inverseSqrt(max(squared, LTC_TINY))) <= range * LTC_HEADROOM;
+}
+
 /// The lobes of a surface point. `normal` and `view` are as for ltc_surface, the table as for ltc_lobe_from_table,
 /// with the layers of the effects that are on.
 fn ltc_shading(position: vec3<f32>, normal: vec3<f32>, view: vec3<f32>, material: LtcMaterial, layers: LtcLayers, table: texture_2d_array<f32>, table_sampler: sampler, table_size: f32) -> LtcShading {

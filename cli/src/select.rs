@@ -1,18 +1,22 @@
 //! `softbox select`.
 
+use std::collections::BTreeSet;
 use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use clap::{Args, ValueEnum};
+use rayon::prelude::*;
 use softbox::effects::{self, Effect, Effects};
 use softbox::translate::{self, Target};
 
 use crate::bake::write_file;
+use crate::progress;
 
 #[derive(Args)]
 pub struct SelectArguments {
     /// The set of effects, such as quad,polygon+ggx+two-sided.
-    #[arg(value_name = "SET", required_unless_present = "list")]
+    #[arg(value_name = "SET", required_unless_present_any = ["list", "count"])]
     effects: Option<String>,
     /// Language of the text.
     #[arg(long, value_enum, default_value = "wgsl")]
@@ -23,6 +27,9 @@ pub struct SelectArguments {
     /// Print all effects with what they mean instead.
     #[arg(long, conflicts_with_all = ["effects", "out"])]
     list: bool,
+    /// Make the module of every set instead, and count the different ones; takes minutes.
+    #[arg(long, conflicts_with_all = ["effects", "out", "list"])]
+    count: bool,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -44,6 +51,7 @@ enum Language {
 pub fn select(arguments: &SelectArguments) -> anyhow::Result<()> {
     let text = match &arguments.effects {
         Some(effects) => selected(effects.parse()?, arguments.target)?,
+        None if arguments.count => count()?,
         None => list(),
     };
     match &arguments.out {
@@ -81,4 +89,23 @@ fn list() -> String {
         let absent = if present.contains(effect) { "" } else { " (not in this include)" };
         list + &format!("{:20} {}{absent}\n", effect.name(), effect.entry().meaning)
     })
+}
+
+/// How many sets there are, and how many modules they make.
+fn count() -> anyhow::Result<String> {
+    let present = Effects::present();
+    let sets: Vec<Effects> = Effects::every().filter(|effects| present.is_superset(*effects)).collect();
+    let bar = progress::bar("Translating");
+    let done = AtomicUsize::new(0);
+    let modules: BTreeSet<Vec<u8>> = sets
+        .par_iter()
+        .map(|effects| {
+            let module = translate::library_spirv(softbox::WGSL_INCLUDE, *effects);
+            let share = (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / sets.len() as f64;
+            progress::advance(&bar, share);
+            module
+        })
+        .collect::<Result<_, _>>()?;
+    bar.finish_and_clear();
+    Ok(format!("{} sets of effects make {} different modules\n", sets.len(), modules.len()))
 }

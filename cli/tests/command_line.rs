@@ -96,7 +96,7 @@ fn eval_keeps_what_came_before_a_bad_line_and_says_what_is_wrong() {
         (with("[0.6,0,0.8]", "[0,0]"), "not a case"),
         (with("0.5", "1.25"), "roughness is 1.25"),
         (with("0.5", "-0.1"), "roughness is -0.1"),
-        (with("[[-1,-1,1],[-1,1,1],", "["), "2 points"),
+        (with("[[-1,-1,1],[-1,1,1],", "["), "points holds 2 of them"),
         (with("[-1,1,1]", "[-1,1e999,1]"), "not finite"),
         (with("[-1,1,1]", "[-1,1e39,1]"), "point 2 is not finite in single precision"),
         (with("[-1,1,1]", "[-1,NaN,1]"), "not finite"),

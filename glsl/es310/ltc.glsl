@@ -3142,6 +3142,16 @@ LtcMaterial ltc_material(vec3 base_colour, float roughness_3, vec3 normal_reflec
     return _e28;
 }
 
+// Whether a surface point lies within `range` of the centre of a light, beyond which the light may be skipped; see
+// softbox::light::Light::range.
+bool ltc_in_range(vec3 position, vec3 centre, float range) {
+    vec3 away = ((centre * LTC_HEADROOM) - (position * LTC_HEADROOM));
+    float _e8 = ltc_extent(away);
+    vec3 scaled = (away * (1.0 / max(_e8, LTC_TINY)));
+    float squared = dot(scaled, scaled);
+    return ((_e8 * (squared * inversesqrt(max(squared, LTC_TINY)))) <= (range * LTC_HEADROOM));
+}
+
 // The lobes of a surface point. `normal` and `view` are as for ltc_surface, the table as for ltc_lobe_from_table,
 // with the layers of the effects that are on.
 LtcShading ltc_shading(vec3 position, vec3 normal, vec3 view, LtcMaterial material, LtcLayers layers, highp sampler2DArray table, float table_size) {

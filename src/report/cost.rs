@@ -379,7 +379,7 @@ mod tests {
     #[test]
     fn typical_sets_include_nothing_and_everything() {
         let sets = typical();
-        assert!(sets.contains(&Effects::NONE) && sets.contains(&Effects::present()) && sets.len() >= 11);
+        assert!(sets.contains(&Effects::NONE) && sets.contains(&Effects::standing()) && sets.len() >= 12);
     }
 
     #[test]

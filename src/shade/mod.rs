@@ -76,6 +76,7 @@ pub use tube::{
     ltc_tube_line, ltc_tube_lobe, ltc_tube_share,
 };
 pub use whole::{
-    LtcMaterial, LtcReceived, LtcShading, ltc_material, ltc_plain_value, ltc_reflected, ltc_shading,
-    ltc_shading_disk, ltc_shading_polygon, ltc_shading_quad, ltc_shading_sphere, ltc_shading_tube,
+    LtcMaterial, LtcReceived, LtcShading, ltc_in_range, ltc_material, ltc_plain_value, ltc_reflected,
+    ltc_shading, ltc_shading_disk, ltc_shading_polygon, ltc_shading_quad, ltc_shading_sphere,
+    ltc_shading_tube,
 };

@@ -13,7 +13,9 @@ use super::polygon::{
 };
 use super::quad::{ltc_quad_begin, ltc_quad_diffuse, ltc_quad_lobe};
 use super::real::{Real, Vector};
-use super::surface::{LtcLobe, LtcSurface, ltc_lobe_value, ltc_reflectance, ltc_surface};
+use super::surface::{
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_lobe_value, ltc_reflectance, ltc_surface,
+};
 use super::tube::{ltc_tube_begin, ltc_tube_diffuse, ltc_tube_lobe};
 use crate::effects::{Effect, Effects};
 use crate::table::Table;
@@ -121,6 +123,18 @@ pub fn ltc_material<R: Real>(
         coat_roughness: R::new(0.1),
         coat_reflectance: R::new(0.04),
     }
+}
+
+/// Whether a surface point lies within `range` of the centre of a light, beyond which the light may be skipped; see
+/// [`Light::range`](crate::light::Light::range).
+pub fn ltc_in_range<R: Real>(position: R::Vec3, centre: R::Vec3, range: R) -> bool {
+    let headroom: R = R::new(LTC_HEADROOM);
+    let tiny: R = R::new(LTC_TINY);
+    let away = centre * headroom - position * headroom;
+    let extent = ltc_extent::<R>(away);
+    let scaled = away * (R::new(1.0) / extent.max(tiny));
+    let squared = scaled.dot(scaled);
+    extent * (squared * squared.max(tiny).inverse_sqrt()) <= range * headroom
 }
 
 /// The lobes of a surface point, as far as `effects` are on.
