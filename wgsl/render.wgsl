@@ -1,7 +1,11 @@
 // Draws a scene, each pixel's radiance into a storage buffer. Appended to ltc.wgsl.
 //
 // One invocation draws one pixel of a band of rows; dispatch (number of pixels + 63) / 64 workgroups.
-// Light falls directly from each light on each surface: nothing casts a shadow.
+// Light falls directly from each light on each surface: nothing casts a shadow. The include's overrides and
+// render_pictures decide what is compiled.
+
+/// Number of pictures that lights show, 0 to 4; the other bindings hold nothing of use.
+override render_pictures: u32 = 4u;
 
 /// Camera, picture and counts.
 struct RenderSettings {
@@ -23,8 +27,13 @@ struct RenderSettings {
     object_count: u32,
     light_count: u32,
     sample_count: u32,
+    /// Layers of the table, see LtcLayers.
+    sheen_layer: i32,
+    diffuse_layer: i32,
+    anisotropic_layer: i32,
     spare_a: u32,
     spare_b: u32,
+    spare_c: u32,
 }
 
 /// A surface and its material.
@@ -45,18 +54,27 @@ struct RenderObject {
     f0: vec3<f32>,
     roughness_to: f32,
     f90: vec3<f32>,
-    spare_a: f32,
+    diffuse_roughness: f32,
     roughness_start: vec3<f32>,
-    spare_b: f32,
+    coat: f32,
     /// Change of the share of roughness_to per unit of length.
     roughness_gradient: vec3<f32>,
+    coat_roughness: f32,
+    sheen_colour: vec3<f32>,
+    sheen_roughness: f32,
+    grain: vec3<f32>,
+    anisotropy: f32,
+    coat_reflectance: f32,
+    spare_a: f32,
+    spare_b: f32,
     spare_c: f32,
 }
 
 /// A light: `count` vectors from `first` on.
 struct RenderLight {
     radiance: vec3<f32>,
-    spare_a: u32,
+    /// Number of the picture that it shows, from 1; 0 for none.
+    picture: u32,
     /// Unit normal of the emitting side of a polygon or disk.
     normal: vec3<f32>,
     spare_b: u32,
@@ -105,6 +123,11 @@ const RENDER_FAR: f32 = 1e30;
 @group(0) @binding(5) var<storage, read_write> pixels: array<vec4<f32>>;
 @group(0) @binding(6) var table: texture_2d_array<f32>;
 @group(0) @binding(7) var table_sampler: sampler;
+@group(0) @binding(8) var first_picture: texture_2d<f32>;
+@group(0) @binding(9) var second_picture: texture_2d<f32>;
+@group(0) @binding(10) var third_picture: texture_2d<f32>;
+@group(0) @binding(11) var fourth_picture: texture_2d<f32>;
+@group(0) @binding(12) var picture_sampler: sampler;
 
 fn render_keep_sign(value: f32) -> f32 {
     return select(value, select(-1e-20, 1e-20, value >= 0.0), abs(value) < 1e-20);
@@ -243,39 +266,127 @@ fn render_meet_light(light: RenderLight, origin: vec3<f32>, direction: vec3<f32>
     return select(RENDER_FAR, distance, inside);
 }
 
+/// Radiance that a surface reflects of a light of unit radiance that shows a picture.
+fn render_reflected_picture(shading: LtcShading, material: LtcMaterial, light: RenderLight) -> vec3<f32> {
+    let a = vertices[light.first].xyz;
+    let b = vertices[light.first + 1u].xyz;
+    let c = vertices[light.first + 2u].xyz;
+    let d = vertices[light.first + 3u].xyz;
+    let two_sided = (light.flags & RENDER_TWO_SIDED) != 0u;
+    if (render_pictures > 3u) {
+        if (light.picture == 4u) {
+            return ltc_reflected_picture(shading, material, a, b, c, d, two_sided, fourth_picture, picture_sampler, vec2<f32>(textureDimensions(fourth_picture)));
+        }
+    }
+    if (render_pictures > 2u) {
+        if (light.picture == 3u) {
+            return ltc_reflected_picture(shading, material, a, b, c, d, two_sided, third_picture, picture_sampler, vec2<f32>(textureDimensions(third_picture)));
+        }
+    }
+    if (render_pictures > 1u) {
+        if (light.picture == 2u) {
+            return ltc_reflected_picture(shading, material, a, b, c, d, two_sided, second_picture, picture_sampler, vec2<f32>(textureDimensions(second_picture)));
+        }
+    }
+    return ltc_reflected_picture(shading, material, a, b, c, d, two_sided, first_picture, picture_sampler, vec2<f32>(textureDimensions(first_picture)));
+}
+
+/// What a surface receives of a light of unit radiance, in the diffuse part by Lambert's law if `smooth_diffuse`.
+fn render_received(shading: LtcShading, light: RenderLight, smooth_diffuse: bool) -> LtcReceived {
+    let first = light.first;
+    let two_sided = (light.flags & RENDER_TWO_SIDED) != 0u;
+    let a = vertices[first];
+    var received: LtcReceived;
+    if (ltc_use_disk & (light.kind == RENDER_DISK)) {
+        received = ltc_shading_disk(shading, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+    }
+    if (ltc_use_sphere & (light.kind == RENDER_SPHERE_LIGHT)) {
+        received = ltc_shading_sphere(shading, a.xyz, a.w);
+    }
+    if (ltc_use_tube & (light.kind == RENDER_TUBE)) {
+        received = ltc_shading_tube(shading, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & RENDER_CAPS) != 0u);
+    }
+    let is_quad = (light.flags & RENDER_CONVEX_QUAD) != 0u;
+    if (ltc_use_quad & is_quad) {
+        received = ltc_shading_quad(shading, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
+    }
+    if (ltc_use_polygon & (light.kind == RENDER_POLYGON) & !is_quad) {
+        var polygon = ltc_shading_polygon_begin(shading, a.xyz);
+        for (var i = 1u; i < light.count; i++) {
+            ltc_shading_polygon_add(&polygon, shading, vertices[first + i].xyz);
+        }
+        received = ltc_shading_polygon_end(&polygon, shading, two_sided);
+    }
+    // What the lobe of Lambert's law has, but for rounding.
+    received.rough = select(received.rough, received.diffuse, smooth_diffuse);
+    return received;
+}
+
 /// Radiance that a surface point reflects of all lights.
 fn render_shade(hit: RenderHit, view: vec3<f32>) -> vec3<f32> {
     let object = objects[hit.object];
     let share = clamp(dot(hit.position - object.roughness_start, object.roughness_gradient), 0.0, 1.0);
     let roughness = mix(object.roughness_from, object.roughness_to, share);
-    let surface = ltc_surface(hit.position, hit.normal, view, roughness);
-    let lobe = ltc_lobe_from_table(surface, table, table_sampler, f32(textureDimensions(table).x));
+    var material = ltc_material(object.base_colour, roughness, object.f0);
+    material.grazing_reflectance = object.f90;
+    material.diffuse_roughness = object.diffuse_roughness;
+    material.coat = object.coat;
+    material.coat_roughness = object.coat_roughness;
+    material.coat_reflectance = object.coat_reflectance;
+    material.sheen_colour = object.sheen_colour;
+    material.sheen_roughness = object.sheen_roughness;
+    material.grain = object.grain;
+    material.anisotropy = object.anisotropy;
+    var layers: LtcLayers;
+    layers.sheen = settings.sheen_layer;
+    layers.diffuse = settings.diffuse_layer;
+    layers.anisotropic = settings.anisotropic_layer;
+    let table_size = f32(textureDimensions(table).x);
+    var shading = ltc_shading(hit.position, hit.normal, view, material, layers, table, table_sampler, table_size);
+    // Where another material calls for an effect and this one does not, it must look as it does without.
+    if (ltc_use_anisotropic & (object.anisotropy == 0.0)) {
+        shading.specular = ltc_lobe_from_table(shading.surface, table, table_sampler, table_size);
+    }
+    let smooth_diffuse = object.diffuse_roughness == 0.0;
+    if (ltc_use_rough_diffuse & smooth_diffuse) {
+        shading.rough = ltc_planar_lobe(shading.surface, vec4<f32>(1.0, 0.0, 0.0, 1.0), 1.0, 0.0);
+    }
     var sum = vec3<f32>(0.0);
     for (var index = 0u; index < settings.light_count; index++) {
         let light = lights[index];
-        let first = light.first;
-        let two_sided = (light.flags & RENDER_TWO_SIDED) != 0u;
-        let a = vertices[first];
-        var value: vec3<f32>;
-        if (light.kind == RENDER_DISK) {
-            value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
-        } else if (light.kind == RENDER_SPHERE_LIGHT) {
-            value = ltc_sphere(surface, lobe, a.xyz, a.w);
-        } else if (light.kind == RENDER_TUBE) {
-            value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & RENDER_CAPS) != 0u);
-        } else if ((light.flags & RENDER_CONVEX_QUAD) != 0u) {
-            value = ltc_quad(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz,
-                vertices[first + 3u].xyz, two_sided);
+        var reflected: vec3<f32>;
+        if (ltc_use_textured & (light.picture != 0u)) {
+            reflected = render_reflected_picture(shading, material, light);
         } else {
-            var polygon = ltc_polygon_begin(surface, a.xyz);
-            for (var i = 1u; i < light.count; i++) {
-                ltc_polygon_add(&polygon, surface, lobe, vertices[first + i].xyz);
-            }
-            value = ltc_polygon_end(&polygon, surface, lobe, two_sided);
+            reflected = ltc_reflected(shading, material, render_received(shading, light, smooth_diffuse));
         }
-        sum += light.radiance * (object.base_colour * value.x + ltc_reflectance(value, object.f0, object.f90));
+        sum += light.radiance * reflected;
     }
     return sum;
+}
+
+/// What a light emits from a point on it.
+fn render_emitted(light: RenderLight, place: vec3<f32>) -> vec3<f32> {
+    if (light.picture == 0u) {
+        return light.radiance;
+    }
+    let corner = vertices[light.first + 3u].xyz;
+    let u = vertices[light.first + 1u].xyz - vertices[light.first].xyz;
+    let v = vertices[light.first].xyz - corner;
+    let area = cross(u, v);
+    let offset = place - corner;
+    let at = vec2<f32>(dot(cross(offset, v), area), dot(cross(u, offset), area)) / dot(area, area);
+    var colour: vec4<f32>;
+    if (light.picture == 1u) {
+        colour = textureSampleLevel(first_picture, picture_sampler, at, 0.0);
+    } else if (light.picture == 2u) {
+        colour = textureSampleLevel(second_picture, picture_sampler, at, 0.0);
+    } else if (light.picture == 3u) {
+        colour = textureSampleLevel(third_picture, picture_sampler, at, 0.0);
+    } else {
+        colour = textureSampleLevel(fourth_picture, picture_sampler, at, 0.0);
+    }
+    return light.radiance * colour.xyz;
 }
 
 /// Radiance along a ray.
@@ -298,7 +409,7 @@ fn render_trace(origin: vec3<f32>, direction: vec3<f32>) -> vec3<f32> {
             nearest = distance;
             let sided = light.kind == RENDER_POLYGON || light.kind == RENDER_DISK;
             let emits = !sided || (light.flags & RENDER_TWO_SIDED) != 0u || dot(light.normal, direction) < 0.0;
-            radiance = select(vec3<f32>(0.0), light.radiance, emits);
+            radiance = select(vec3<f32>(0.0), render_emitted(light, origin + direction * distance), emits);
         }
     }
     if (hit.distance < RENDER_FAR && hit.distance <= nearest) {

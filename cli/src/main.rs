@@ -2,6 +2,7 @@
 
 mod bake;
 mod cost;
+mod effects;
 mod eval;
 mod model;
 mod package;
@@ -29,6 +30,8 @@ enum Command {
     Bake(bake::BakeArguments),
     /// Render a scene file, on a device and by numerical integration.
     Render(render::RenderArguments),
+    /// Tell which effects a scene calls for.
+    Effects(effects::EffectsArguments),
     /// Write the part of the include that a set of effects calls for, in any language.
     Select(select::SelectArguments),
     /// Tell what sets of effects cost, as compiled for AMD's processors; none needs to be there.
@@ -48,6 +51,7 @@ fn main() {
         Command::Build(arguments) => package::build(&arguments),
         Command::Bake(arguments) => bake::bake(&arguments),
         Command::Render(arguments) => render::render(&arguments),
+        Command::Effects(arguments) => effects::effects(&arguments),
         Command::Select(arguments) => select::select(&arguments),
         Command::Cost(arguments) => cost::cost(&arguments),
         Command::Eval(arguments) => eval::eval(&arguments),

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
+use anyhow::Context;
 use clap::Args;
 use softbox::device::Device;
 use softbox::scene::{Comparison, Panel, Scene, check_png_path, render_truth, write_png};
@@ -27,6 +28,9 @@ pub struct RenderArguments {
     /// Place the difference to ground truth beside the picture, in false colours.
     #[arg(long)]
     pub difference: bool,
+    /// Set of effects to draw with, such as quad,polygon+ggx+two-sided; what the scene calls for by default.
+    #[arg(long, value_name = "SET")]
+    pub effects: Option<String>,
     /// Pixels in a row; 960, or 480 with ground truth.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub width: Option<u32>,
@@ -46,6 +50,11 @@ pub struct RenderArguments {
 pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
     check_png_path(&arguments.out)?;
     let scene = Scene::load(&arguments.scene)?;
+    let effects = match &arguments.effects {
+        Some(text) => text.parse()?,
+        None => scene.effects(),
+    };
+    scene.check_effects(effects).with_context(|| arguments.scene.display().to_string())?;
     let with_truth = arguments.truth || arguments.difference;
     let width = arguments.width.unwrap_or(if with_truth { 480 } else { 960 });
     let height = arguments.height.unwrap_or((width * 9).div_ceil(16));
@@ -53,11 +62,11 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
     let table = Table::default();
     let device = Device::open_any()?;
     let (image, seconds) = timed("include", |progress| {
-        device.render(&table, &scene, [width, height], samples, &|share| progress(share))
+        device.render_with(&table, &scene, effects, [width, height], samples, &|share| progress(share))
     });
     let image = image?;
     println!(
-        "{width} x {height}, {samples} samples, {} lights: {:.2} s on {}",
+        "{width} x {height}, {samples} samples, {} lights, {effects}: {:.2} s on {}",
         scene.lights.len(),
         seconds,
         device.info().name

@@ -5,8 +5,10 @@ use glam::DVec3;
 use wgpu::util::DeviceExt;
 
 use super::{Device, DeviceError, EvaluateLight};
-use crate::scene::{Image, Light, Object, Scene, Shape, sample_positions};
-use crate::table::Table;
+use crate::effects::Effects;
+use crate::scene::{Image, Light, Object, Scene, SceneError, Shape, sample_positions};
+use crate::table::{Layer, Table};
+use crate::texture::{Prefiltered, prefilter};
 
 /// Why a scene was not drawn.
 #[derive(Debug, thiserror::Error)]
@@ -14,6 +16,9 @@ pub enum RenderError {
     /// The device failed.
     #[error(transparent)]
     Device(#[from] DeviceError),
+    /// The scene calls for effects that were left out.
+    #[error(transparent)]
+    Effects(#[from] SceneError),
     /// A pixel is infinite or not a number.
     #[error(
         "pixel ({column}, {row}) on {adapter} is not finite; please report the scene, for the include promises finite values"
@@ -59,7 +64,10 @@ struct RenderSettings {
     object_count: u32,
     light_count: u32,
     sample_count: u32,
-    spare: [u32; 2],
+    sheen_layer: i32,
+    diffuse_layer: i32,
+    anisotropic_layer: i32,
+    spare: [u32; 3],
 }
 
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
@@ -78,18 +86,24 @@ struct RenderObject {
     f0: [f32; 3],
     roughness_to: f32,
     f90: [f32; 3],
-    spare_a: f32,
+    diffuse_roughness: f32,
     roughness_start: [f32; 3],
-    spare_b: f32,
+    coat: f32,
     roughness_gradient: [f32; 3],
-    spare_c: f32,
+    coat_roughness: f32,
+    sheen_colour: [f32; 3],
+    sheen_roughness: f32,
+    grain: [f32; 3],
+    anisotropy: f32,
+    coat_reflectance: f32,
+    spare: [f32; 3],
 }
 
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
 #[repr(C)]
 struct RenderLight {
     radiance: [f32; 3],
-    spare_a: u32,
+    picture: u32,
     normal: [f32; 3],
     spare_b: u32,
     shape: EvaluateLight,
@@ -125,20 +139,31 @@ impl RenderObject {
             f0: single(material.f0),
             roughness_to: material.roughness.to as f32,
             f90: single(material.f90),
+            diffuse_roughness: material.diffuse_roughness as f32,
             roughness_start: single(material.roughness.start),
+            coat: material.coat as f32,
             roughness_gradient: single(material.roughness.gradient),
-            ..Self::default()
+            coat_roughness: material.coat_roughness as f32,
+            sheen_colour: single(material.sheen_colour),
+            sheen_roughness: material.sheen_roughness as f32,
+            grain: single(material.grain),
+            anisotropy: material.anisotropy as f32,
+            coat_reflectance: material.coat_reflectance as f32,
+            spare: [0.0; 3],
         }
     }
 }
 
 impl RenderLight {
-    fn new(light: &Light, vertices: &mut Vec<[f32; 4]>) -> Self {
+    /// Adds the light's vectors to `vertices` and its picture to `pictures`.
+    fn new<'a>(light: &'a Light, vertices: &mut Vec<[f32; 4]>, pictures: &mut Vec<&'a Prefiltered>) -> Self {
+        pictures.extend(&light.picture);
         Self {
             shape: EvaluateLight::new(&light.shape, vertices),
             radiance: single(light.radiance),
+            picture: if light.picture.is_some() { pictures.len() as u32 } else { 0 },
             normal: single(light.normal),
-            ..Self::default()
+            spare_b: 0,
         }
     }
 }
@@ -153,27 +178,59 @@ impl Device {
         Self::open(wgpu::Backends::PRIMARY).or_else(|error| Self::open(wgpu::Backends::GL).map_err(|_| error))
     }
 
-    /// Draws a scene with the include: linear radiance, each pixel the mean of its samples. `progress` hears the
-    /// share that is done after each band of rows.
+    /// Draws a scene with as much of the include as it calls for, see [`Scene::effects`]: linear radiance, each pixel
+    /// the mean of its samples. `progress` hears the share that is done after each band of rows. What `table` lacks
+    /// of the layers comes from the embedded ones.
     ///
     /// # Errors
     ///
     /// If the device fails, the size is out of range, or a pixel is not finite.
+    ///
+    /// # Panics
+    ///
+    /// If `table` lacks layers and has another size than the embedded ones, or more than [`Scene::MOST_PICTURES`]
+    /// lights have a picture.
     pub fn render(
         &self,
         table: &Table,
         scene: &Scene,
+        size: [u32; 2],
+        samples: u32,
+        progress: &dyn Fn(f64),
+    ) -> Result<Image, RenderError> {
+        self.render_with(table, scene, scene.effects(), size, samples, progress)
+    }
+
+    /// The same with the effects of a given set, which may have more than the scene calls for. Energy compensation and
+    /// cheap horizons change the picture even of a scene that does not call for them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Device::render`], or if the scene calls for an effect that the set lacks.
+    ///
+    /// # Panics
+    ///
+    /// As [`Device::render`].
+    pub fn render_with(
+        &self,
+        table: &Table,
+        scene: &Scene,
+        effects: Effects,
         [width, height]: [u32; 2],
         samples: u32,
         progress: &dyn Fn(f64),
     ) -> Result<Image, RenderError> {
+        scene.check_effects(effects)?;
         let sides = 1..=16384;
         if !(sides.contains(&width) && sides.contains(&height) && (1..=4096).contains(&samples)) {
             return Err(RenderError::Size { width, height, samples });
         }
-        let mut vertices = Vec::new();
+        let (mut vertices, mut pictures) = (Vec::new(), Vec::new());
         let lights: Vec<RenderLight> =
-            scene.lights.iter().map(|light| RenderLight::new(light, &mut vertices)).collect();
+            scene.lights.iter().map(|light| RenderLight::new(light, &mut vertices, &mut pictures)).collect();
+        assert!(pictures.len() <= Scene::MOST_PICTURES, "{} lights have pictures", pictures.len());
+        let table = needed_layers(table, effects);
+        let layer = |layer: Layer| table.index(layer).map_or(0, |index| index as i32);
         let objects: Vec<RenderObject> = scene.objects.iter().map(RenderObject::new).collect();
         let half = (0.5 * scene.camera.field_of_view).tan();
         let mut settings = RenderSettings {
@@ -189,13 +246,22 @@ impl Device {
             object_count: objects.len() as u32,
             light_count: lights.len() as u32,
             sample_count: samples,
-            spare: [0; 2],
+            sheen_layer: layer(Layer::Sheen),
+            diffuse_layer: layer(Layer::Diffuse),
+            anisotropic_layer: layer(Layer::AnisotropicFirst),
+            spare: [0; 3],
         };
         let row_work = u64::from(width) * u64::from(samples) * (1 + vertices.len() + objects.len()) as u64;
         let band = (BAND_WORK / row_work).clamp(1, u64::from(height)) as u32;
         let mut pixels = Vec::with_capacity(width as usize * height as usize);
         let positions = sample_positions(samples);
-        let kernel = self.render_kernel(table, &objects, &lights, &vertices, &positions, width * band)?;
+        let inputs = [
+            bytemuck::cast_slice(&objects),
+            bytemuck::cast_slice(&lights),
+            bytemuck::cast_slice(&vertices),
+            bytemuck::cast_slice(&positions),
+        ];
+        let kernel = self.render_kernel(effects, &table, &pictures, inputs, width * band)?;
         for row in (0..height).step_by(band as usize) {
             settings.row = row;
             settings.rows = band.min(height - row);
@@ -216,11 +282,10 @@ impl Device {
 
     fn render_kernel(
         &self,
+        effects: Effects,
         table: &Table,
-        objects: &[RenderObject],
-        lights: &[RenderLight],
-        vertices: &[[f32; 4]],
-        positions: &[[f32; 2]],
+        pictures: &[&Prefiltered],
+        inputs: [&[u8]; 4],
         band_pixels: u32,
     ) -> Result<Kernel, DeviceError> {
         let device = self.device();
@@ -229,12 +294,18 @@ impl Device {
             label: None,
             source: wgpu::ShaderSource::Wgsl(format!("{}{}", crate::WGSL_INCLUDE, crate::WGSL_RENDER).into()),
         });
+        let mut constants: Vec<(&str, f64)> =
+            effects.switches().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
+        constants.push(("render_pictures", pictures.len() as f64));
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: None,
             layout: None,
             module: &module,
             entry_point: Some("render"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: &constants,
+                ..wgpu::PipelineCompilationOptions::default()
+            },
             cache: None,
         });
         let storage = |contents: &[u8]| {
@@ -261,17 +332,23 @@ impl Device {
         let size = 16 * u64::from(band_pixels);
         let output = buffer(size, wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_SRC);
         let readback = buffer(size, wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ);
-        let inputs = [
-            storage(bytemuck::cast_slice(objects)),
-            storage(bytemuck::cast_slice(lights)),
-            storage(bytemuck::cast_slice(vertices)),
-            storage(bytemuck::cast_slice(positions)),
-        ];
+        let inputs = inputs.map(storage);
         let (view, sampler) = self.upload_table(table);
+        let nothing = prefilter(1, 1, &[[0.0; 4]]);
+        let uploaded: [wgpu::TextureView; Scene::MOST_PICTURES] =
+            std::array::from_fn(|index| self.upload_picture(pictures.get(index).unwrap_or(&&nothing)));
+        let picture_sampler = device.create_sampler(&wgpu::SamplerDescriptor {
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            mipmap_filter: wgpu::MipmapFilterMode::Linear,
+            ..Default::default()
+        });
         let buffers = std::iter::once(&settings).chain(&inputs).chain([&output]);
         let resources = buffers
             .map(wgpu::Buffer::as_entire_binding)
-            .chain([wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&sampler)]);
+            .chain([wgpu::BindingResource::TextureView(&view), wgpu::BindingResource::Sampler(&sampler)])
+            .chain(uploaded.iter().map(wgpu::BindingResource::TextureView))
+            .chain([wgpu::BindingResource::Sampler(&picture_sampler)]);
         let entries: Vec<wgpu::BindGroupEntry> = (0..)
             .zip(resources)
             .map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource })
@@ -285,6 +362,25 @@ impl Device {
             Some(error) => Err(self.failed(error.to_string())),
             None => Ok(Kernel { pipeline, group, settings, output, readback }),
         }
+    }
+
+    /// A light's picture with its levels as mipmaps.
+    fn upload_picture(&self, picture: &Prefiltered) -> wgpu::TextureView {
+        let [width, height] = picture.texels().map(|side| side as u32);
+        let descriptor = wgpu::TextureDescriptor {
+            label: None,
+            size: wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+            mip_level_count: picture.levels().len() as u32,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba16Float,
+            usage: wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        };
+        let order = wgpu::util::TextureDataOrder::LayerMajor;
+        let texture =
+            self.device().create_texture_with_data(self.queue(), &descriptor, order, &picture.bytes());
+        texture.create_view(&wgpu::TextureViewDescriptor::default())
     }
 
     fn render_band(&self, kernel: &Kernel, settings: &RenderSettings) -> Result<Vec<u8>, DeviceError> {
@@ -317,6 +413,13 @@ impl Device {
     fn failed(&self, reason: String) -> DeviceError {
         DeviceError::Failed { adapter: self.info().name.clone(), reason }
     }
+}
+
+/// The layers that the effects read, and no other as long as there is one.
+fn needed_layers(table: &Table, effects: Effects) -> Table {
+    let needed = effects.layers();
+    let completed = table.clone().completed(&needed);
+    if needed.is_empty() { completed } else { completed.only(&needed) }
 }
 
 /// The pipeline of `wgsl/render.wgsl` with its buffers, for any number of bands.

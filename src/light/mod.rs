@@ -1,6 +1,7 @@
 //! Lights as values: what they are, whether they can be shaded, how far they reach.
 
 mod check;
+mod effects;
 mod outline;
 mod range;
 mod value;

@@ -31,7 +31,7 @@ impl Scene {
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
         match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse(&text, &name),
+            Ok(text) => Self::parse_in(&text, &name, path.parent().unwrap_or(Path::new(""))),
             Err(error) => Err(SceneError::new(
                 name,
                 format!("the scene file could not be read ({error}); name a file in TOML"),
@@ -39,12 +39,16 @@ impl Scene {
         }
     }
 
-    /// Reads the text of a scene file; errors call it `name`.
+    /// Reads the text of a scene file; errors call it `name`. Names of pictures are relative to the current folder.
     ///
     /// # Errors
     ///
     /// If the text is no scene.
     pub fn parse(text: &str, name: &str) -> Result<Self, SceneError> {
+        Self::parse_in(text, name, Path::new(""))
+    }
+
+    fn parse_in(text: &str, name: &str, folder: &Path) -> Result<Self, SceneError> {
         let file: File = toml::from_str(text).map_err(|error| {
             let message = error.message().lines().collect::<Vec<_>>().join(", ");
             let place = match error.span() {
@@ -53,7 +57,7 @@ impl Scene {
             };
             SceneError::new(place, message)
         })?;
-        file.check(name)
+        file.check(name, folder)
     }
 }
 
@@ -64,6 +68,8 @@ pub(super) struct File {
     pub camera: CameraEntry,
     #[serde(default)]
     pub background: Colour,
+    #[serde(default)]
+    pub energy_compensation: bool,
     #[serde(default, rename = "plane")]
     pub planes: Vec<PlaneEntry>,
     #[serde(default, rename = "box")]
@@ -133,6 +139,21 @@ pub(super) struct MaterialEntry {
     pub f0: Colour,
     #[serde(default = "white")]
     pub f90: Colour,
+    #[serde(default)]
+    pub diffuse_roughness: f64,
+    #[serde(default)]
+    pub coat: f64,
+    #[serde(default = "tenth")]
+    pub coat_roughness: f64,
+    #[serde(default = "dielectric_reflectance")]
+    pub coat_reflectance: f64,
+    #[serde(default)]
+    pub sheen_colour: Colour,
+    #[serde(default = "half")]
+    pub sheen_roughness: f64,
+    #[serde(default)]
+    pub anisotropy: f64,
+    pub grain: Option<[f64; 3]>,
 }
 
 /// Which fields a light has depends on its shape, a polygon without one.
@@ -149,6 +170,7 @@ pub(super) struct LightEntry {
     pub radius: Option<f64>,
     pub caps: Option<bool>,
     pub two_sided: Option<bool>,
+    pub picture: Option<String>,
     pub radiance: Colour,
 }
 
@@ -160,9 +182,21 @@ fn z_axis() -> [f64; 3] {
     [0.0, 0.0, 1.0]
 }
 
+fn half() -> f64 {
+    0.5
+}
+
+fn tenth() -> f64 {
+    0.1
+}
+
 /// Reflectance at normal incidence for a refractive index of 1.5, which is about that of plastic, paint and glass.
+fn dielectric_reflectance() -> f64 {
+    0.04
+}
+
 fn dielectric() -> Colour {
-    Colour(DVec3::splat(0.04))
+    Colour(DVec3::splat(dielectric_reflectance()))
 }
 
 fn white() -> Colour {

@@ -1,12 +1,15 @@
 //! Scenes: what a scene file holds, and the same picture of it through the include and in ground truth.
 //!
-//! A scene has a camera, planes, boxes and spheres with a diffuse and a GGX part, and polygon lights. Light falls
+//! A scene has a camera, planes, boxes and spheres of layered materials, and lights of every shape. Light falls
 //! directly from each light on each surface: nothing casts a shadow, and surfaces do not light each other.
 
 mod check;
+mod effects;
 mod file;
 mod image;
 mod label;
+mod layers;
+mod picture;
 mod ray;
 mod truth;
 
@@ -16,6 +19,8 @@ pub use ray::{Hit, sample_positions};
 pub use truth::{Truth, render_truth};
 
 use glam::DVec3;
+
+use crate::texture::Prefiltered;
 
 /// A scene whose numbers have been checked: directions are unit vectors, lengths are positive.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +33,13 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Everything that emits light.
     pub lights: Vec<Light>,
+    /// Whether specular parts make up for the light that one bounce between their facets loses.
+    pub energy_compensation: bool,
+}
+
+impl Scene {
+    /// How many lights may have a picture.
+    pub const MOST_PICTURES: usize = 4;
 }
 
 /// A pinhole camera.
@@ -86,7 +98,7 @@ pub enum Shape {
     },
 }
 
-/// A diffuse part under a GGX part with Schlick's Fresnel reflectance.
+/// A diffuse part under a GGX part with Schlick's Fresnel reflectance, under a sheen, under a clear coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Material {
     /// Reflectance of the diffuse part.
@@ -97,6 +109,22 @@ pub struct Material {
     pub f90: DVec3,
     /// Perceptual roughness.
     pub roughness: Roughness,
+    /// Roughness of the diffuse part, 0 for Lambert's law to 1.
+    pub diffuse_roughness: f64,
+    /// Share of the surface that a clear coat covers.
+    pub coat: f64,
+    /// Perceptual roughness of the coat.
+    pub coat_roughness: f64,
+    /// Reflectance of the coat at normal incidence.
+    pub coat_reflectance: f64,
+    /// Reflectance of the sheen; black where there is none.
+    pub sheen_colour: DVec3,
+    /// Perceptual roughness of the sheen.
+    pub sheen_roughness: f64,
+    /// Strength of the anisotropy, 0 to 1, as `ltc_anisotropic_alpha` takes it.
+    pub anisotropy: f64,
+    /// Direction, projected onto the surface, in which highlights are longest; zero where there is no anisotropy.
+    pub grain: DVec3,
 }
 
 /// Perceptual roughness that runs linearly from one point to another and is constant beyond both.
@@ -128,6 +156,8 @@ pub struct Light {
     /// Unit normal of the emitting side of a polygon or disk, whose other side is black unless it is two-sided;
     /// zero for any other light.
     pub normal: DVec3,
-    /// What it emits in all directions.
+    /// What it emits in all directions; with a picture, where that is white.
     pub radiance: DVec3,
+    /// What a parallelogram shows, from its first point, the lower left corner, on counter-clockwise.
+    pub picture: Option<Prefiltered>,
 }

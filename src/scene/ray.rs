@@ -133,6 +133,12 @@ impl Shape {
 }
 
 impl Light {
+    /// What a ray that meets the light's emitting side sees.
+    pub(super) fn seen(&self, origin: DVec3, direction: DVec3) -> DVec3 {
+        self.meet(origin, direction)
+            .map_or(DVec3::ZERO, |distance| self.emitted(origin + direction * distance))
+    }
+
     /// Whether the side that a ray in the given direction meets emits.
     fn emits_against(&self, direction: DVec3) -> bool {
         match self.shape {

@@ -5,13 +5,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::{Hit, Image, Light, Material, Scene, sample_positions};
-use crate::brdf::Ggx;
-use crate::shade::LTC_ROUGHNESS_FLOOR;
-use crate::truth;
-
-/// Relative error allowed to each integral.
-const TOLERANCE: f64 = 1e-4;
+use super::layers::Layers;
+use super::{Hit, Image, Scene, sample_positions};
 
 /// A picture in ground truth.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,8 +17,10 @@ pub struct Truth {
     pub shaded: Vec<bool>,
 }
 
-/// Draws a scene by numerical integration of GGX with height-correlated masking, each integral to a relative error
-/// of 1e-4, with the samples of [`sample_positions`]. `progress` hears the share that is done, from any thread.
+/// Draws a scene by numerical integration of the reflectance models that the tables are baked from, each integral to
+/// a relative error of 1e-4, with the samples of [`sample_positions`]. What a layer takes from what is below it, and
+/// energy compensation, come from the models' own albedos. A light's picture is integrated texel by texel, each
+/// texel of one colour. `progress` hears the share that is done, from any thread.
 pub fn render_truth(
     scene: &Scene,
     width: u32,
@@ -65,30 +62,18 @@ impl Scene {
             shaded &= matches!(hit, Hit::Surface { .. });
             sum += match hit {
                 Hit::Background => self.background,
-                Hit::Light(index, emitting) if emitting => self.lights[index].radiance,
+                Hit::Light(index, emitting) if emitting => {
+                    self.lights[index].seen(self.camera.position, direction)
+                }
                 Hit::Light(..) => DVec3::ZERO,
                 Hit::Surface { object, position, normal } => {
                     let material = &self.objects[object].material;
-                    self.lights
-                        .iter()
-                        .map(|light| light.reflected(material, position, normal, -direction))
-                        .sum()
+                    let layers =
+                        Layers::new(material, self.energy_compensation, position, normal, -direction);
+                    self.lights.iter().map(|light| layers.reflected(light)).sum()
                 }
             };
         }
         ((sum / positions.len() as f64).as_vec3().to_array(), shaded)
-    }
-}
-
-impl Light {
-    /// Radiance that a surface reflects of this light.
-    fn reflected(&self, material: &Material, position: DVec3, normal: DVec3, view: DVec3) -> DVec3 {
-        let (tangent, bitangent) = normal.any_orthonormal_pair();
-        let into = |v: DVec3| DVec3::new(v.dot(tangent), v.dot(bitangent), v.dot(normal));
-        let shape = self.shape.moved(|point| into(point - position), into);
-        let roughness = material.roughness.at(position).max(LTC_ROUGHNESS_FLOOR);
-        let truth = truth::light(&Ggx::new(roughness * roughness), into(view), &shape, TOLERANCE);
-        let specular = material.f0 * (truth.specular - truth.fresnel) + material.f90 * truth.fresnel;
-        self.radiance * (material.base_colour * truth.diffuse + specular)
     }
 }

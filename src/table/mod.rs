@@ -104,6 +104,51 @@ impl Table {
         self
     }
 
+    /// This table with those of the given layers that it lacks, from the embedded tables.
+    ///
+    /// ```
+    /// use softbox::effects::Effects;
+    /// use softbox::table::{Layer, Table};
+    ///
+    /// let layers = "disk+ggx,sheen".parse::<Effects>()?.layers();
+    /// let table = Table::default().completed(&layers);
+    /// assert_eq!(table.layers(), [Layer::Shape, Layer::Amplitude, Layer::Sheen]);
+    /// assert_eq!(table.only(&[Layer::Sheen]), Table::sheen());
+    /// # Ok::<(), softbox::effects::EffectsError>(())
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// If it lacks one and is not of [`TABLE_SIZE`](crate::TABLE_SIZE).
+    pub fn completed(self, layers: &[Layer]) -> Self {
+        let embedded = |layer: Layer| match layer {
+            Layer::Shape | Layer::Amplitude => Self::default(),
+            Layer::Sheen => Self::sheen(),
+            Layer::Diffuse => Self::diffuse(),
+            Layer::AnisotropicFirst | Layer::AnisotropicSecond => {
+                AnisotropicTable::default().layers().clone()
+            }
+        };
+        layers.iter().fold(self, |table, layer| match table.index(*layer) {
+            Some(_) => table,
+            None => table.with(&embedded(*layer).only(&[*layer])),
+        })
+    }
+
+    /// The given layers of this table, in the given order.
+    ///
+    /// # Panics
+    ///
+    /// If it lacks one of them.
+    pub fn only(&self, layers: &[Layer]) -> Self {
+        let texels = layers.iter().flat_map(|layer| {
+            let index = self.index(*layer).unwrap_or_else(|| panic!("the table has no layer {layer:?}"));
+            let size = self.size * self.size;
+            &self.texels[index * size..(index + 1) * size]
+        });
+        Self { size: self.size, layers: layers.to_vec(), texels: texels.copied().collect() }
+    }
+
     /// Reads the bytes that [`Table::bytes`] writes for a table of [`Layer::BASE`].
     ///
     /// # Errors

@@ -1,13 +1,16 @@
 //! From what a file says to a scene that can be drawn.
 
+use std::path::Path;
+
 use glam::{DQuat, DVec3};
 
-use super::file::{
-    BoxEntry, CameraEntry, Colour, File, LightEntry, MaterialEntry, PlaneEntry, RoughnessEntry, SphereEntry,
-};
-use crate::light;
+use super::file::{BoxEntry, CameraEntry, Colour, File, PlaneEntry, SphereEntry};
+use super::{Camera, Light, Object, Scene, SceneError, Shape};
+use light::light;
+use material::material;
 
-use super::{Camera, Light, Material, Object, Roughness, Scene, SceneError, Shape};
+mod light;
+mod material;
 
 /// Largest length: f32 squares it and still counts in parts of it.
 const LARGEST_LENGTH: f64 = 1e6;
@@ -16,8 +19,8 @@ const LARGEST_LENGTH: f64 = 1e6;
 const LARGEST_RADIANCE: f64 = 1e9;
 
 impl File {
-    /// The scene, if everything in it can be drawn.
-    pub(super) fn check(&self, name: &str) -> Result<Scene, SceneError> {
+    /// The scene, if everything in it can be drawn. Names of pictures are relative to `folder`.
+    pub(super) fn check(&self, name: &str, folder: &Path) -> Result<Scene, SceneError> {
         let place = |kind: &str, index: usize| Place(format!("{name}: {kind} {}", index + 1));
         let camera = camera(&self.camera, &Place(format!("{name}: camera")))?;
         let background = Place(name.to_owned()).radiance("background", self.background)?;
@@ -31,9 +34,18 @@ impl File {
         for (index, entry) in self.spheres.iter().enumerate() {
             objects.push(sphere(entry, &place("sphere", index))?);
         }
-        let lights =
-            self.lights.iter().enumerate().map(|(index, entry)| light(entry, &place("light", index)));
-        Ok(Scene { camera, background, objects, lights: lights.collect::<Result<_, _>>()? })
+        let mut lights: Vec<Light> = Vec::new();
+        for (index, entry) in self.lights.iter().enumerate() {
+            let place = place("light", index);
+            lights.push(light(entry, &place, folder)?);
+            if lights.iter().filter(|light| light.picture.is_some()).count() > Scene::MOST_PICTURES {
+                return place.error(format!(
+                    "the scene has more than {} lights with a picture; leave out the others' pictures",
+                    Scene::MOST_PICTURES
+                ));
+            }
+        }
+        Ok(Scene { camera, background, objects, lights, energy_compensation: self.energy_compensation })
     }
 }
 
@@ -131,7 +143,11 @@ fn plane(entry: &PlaneEntry, place: &Place) -> Result<Object, SceneError> {
         None => [f64::INFINITY; 2],
     };
     let shape = Shape::Plane { point, axes: [first, normal.cross(first), normal], extent };
-    Ok(Object { shape, material: material(&entry.material, place)? })
+    let material = material(&entry.material, place)?;
+    if material.anisotropy > 0.0 && material.grain.cross(normal).length() < 1e-3 {
+        return place.error("grain runs along the normal; it must be a direction along the plane");
+    }
+    Ok(Object { shape, material })
 }
 
 fn cuboid(entry: &BoxEntry, place: &Place) -> Result<Object, SceneError> {
@@ -158,135 +174,4 @@ fn sphere(entry: &SphereEntry, place: &Place) -> Result<Object, SceneError> {
     let centre = place.position("centre", entry.centre)?;
     let radius = place.length("radius", entry.radius)?;
     Ok(Object { shape: Shape::Sphere { centre, radius }, material: material(&entry.material, place)? })
-}
-
-fn material(entry: &MaterialEntry, place: &Place) -> Result<Material, SceneError> {
-    let roughness = match entry.roughness {
-        RoughnessEntry::Constant(value) => {
-            let value = place.within("roughness", value, 0.0, 1.0)?;
-            Roughness { from: value, to: value, start: DVec3::ZERO, gradient: DVec3::ZERO }
-        }
-        RoughnessEntry::Varying(varying) => {
-            let from = place.within("roughness's from", varying.from, 0.0, 1.0)?;
-            let to = place.within("roughness's to", varying.to, 0.0, 1.0)?;
-            let start = place.position("roughness's start", varying.start)?;
-            let way = place.position("roughness's end", varying.end)? - start;
-            if way.length() < 1e-6 {
-                return place.error("roughness's start and end are one point; they must be apart");
-            }
-            Roughness { from, to, start, gradient: way / way.length_squared() }
-        }
-    };
-    Ok(Material {
-        base_colour: place.reflectance("base_colour", entry.base_colour)?,
-        f0: place.reflectance("f0", entry.f0)?,
-        f90: place.reflectance("f90", entry.f90)?,
-        roughness,
-    })
-}
-
-fn light(entry: &LightEntry, place: &Place) -> Result<Light, SceneError> {
-    let fields = Fields { entry, place, shape: entry.shape.as_deref().unwrap_or("polygon") };
-    let shape = fields.shape()?;
-    shape.check().or_else(|error| place.error(error.to_string()))?;
-    let normal = match &shape {
-        light::Light::Polygon { points, .. } => {
-            light::polygon_normal(points).or_else(|error| place.error(error.to_string()))?
-        }
-        light::Light::Disk { half_x, half_y, .. } => half_x.normalize().cross(half_y.normalize()).normalize(),
-        _ => DVec3::ZERO,
-    };
-    let (_, size) = shape.bounds();
-    if size < 1e-6 {
-        return place.error(format!("the light is {size} large; it must measure 1e-6 or more"));
-    }
-    Ok(Light { shape, normal, radiance: place.radiance("radiance", entry.radiance)? })
-}
-
-/// The fields of a light, of which each shape has its own.
-struct Fields<'a> {
-    entry: &'a LightEntry,
-    place: &'a Place,
-    shape: &'a str,
-}
-
-impl Fields<'_> {
-    fn shape(&self) -> Result<light::Light, SceneError> {
-        let entry = self.entry;
-        let two_sided = entry.two_sided.unwrap_or(false);
-        let shape = match self.shape {
-            "polygon" => {
-                self.only(&["points", "two_sided"])?;
-                let points = self.needed("points", entry.points.as_ref())?;
-                let points = points.iter().map(|&point| self.place.position("a point", point));
-                light::Light::Polygon { points: points.collect::<Result<_, _>>()?, two_sided }
-            }
-            "disk" => {
-                self.only(&["center", "half_x", "half_y", "two_sided"])?;
-                light::Light::Disk {
-                    center: self.position("center", entry.center)?,
-                    half_x: self.position("half_x", entry.half_x)?,
-                    half_y: self.position("half_y", entry.half_y)?,
-                    two_sided,
-                }
-            }
-            "sphere" => {
-                self.only(&["center", "radius"])?;
-                light::Light::Sphere {
-                    center: self.position("center", entry.center)?,
-                    radius: self.place.length("radius", self.needed("radius", entry.radius)?)?,
-                }
-            }
-            "tube" => {
-                self.only(&["start", "end", "radius", "caps"])?;
-                light::Light::Tube {
-                    start: self.position("start", entry.start)?,
-                    end: self.position("end", entry.end)?,
-                    radius: self.place.length("radius", self.needed("radius", entry.radius)?)?,
-                    caps: entry.caps.unwrap_or(false),
-                }
-            }
-            other => {
-                return self.place.error(format!(
-                    "shape is \"{other}\"; the known shapes are \"polygon\", \"disk\", \"sphere\" and \"tube\""
-                ));
-            }
-        };
-        Ok(shape)
-    }
-
-    fn needed<T>(&self, field: &str, value: Option<T>) -> Result<T, SceneError> {
-        match value {
-            Some(value) => Ok(value),
-            None => self.place.error(format!("a {} needs the field {field}", self.shape)),
-        }
-    }
-
-    fn position(&self, field: &str, value: Option<[f64; 3]>) -> Result<DVec3, SceneError> {
-        self.place.position(field, self.needed(field, value)?)
-    }
-
-    /// Refuses fields that the shape does not have: whoever wrote them meant something by them.
-    fn only(&self, fields: &[&str]) -> Result<(), SceneError> {
-        let entry = self.entry;
-        let given = [
-            ("points", entry.points.is_some()),
-            ("center", entry.center.is_some()),
-            ("half_x", entry.half_x.is_some()),
-            ("half_y", entry.half_y.is_some()),
-            ("start", entry.start.is_some()),
-            ("end", entry.end.is_some()),
-            ("radius", entry.radius.is_some()),
-            ("caps", entry.caps.is_some()),
-            ("two_sided", entry.two_sided.is_some()),
-        ];
-        match given.iter().find(|(name, given)| *given && !fields.contains(name)) {
-            Some((name, _)) => self.place.error(format!(
-                "a {} has no field {name}; it has {}",
-                self.shape,
-                fields.join(", ")
-            )),
-            None => Ok(()),
-        }
-    }
 }

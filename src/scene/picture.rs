@@ -1,0 +1,55 @@
+//! Pictures on lights.
+
+use std::path::Path;
+
+use glam::DVec3;
+
+use super::Light;
+use crate::light;
+use crate::texture::{Prefiltered, prefilter};
+
+/// Largest number of texels along a side: what every device takes.
+const LARGEST_SIDE: u32 = 4096;
+
+/// Reads a picture in sRGB and makes its pyramid, linear and premultiplied by alpha, or says why not.
+pub(super) fn read_picture(path: &Path) -> Result<Prefiltered, String> {
+    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
+    let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)
+        .map_err(|error| error.to_string())?
+        .into_rgba32f();
+    let (width, height) = picture.dimensions();
+    if width.max(height) > LARGEST_SIDE {
+        return Err(format!("it has {width} x {height} texels, and a side may have at most {LARGEST_SIDE}"));
+    }
+    let texels: Vec<[f32; 4]> = picture
+        .pixels()
+        .map(|&image::Rgba([red, green, blue, alpha])| {
+            let [red, green, blue] = [red, green, blue].map(|value| linear(value) * alpha);
+            [red, green, blue, alpha]
+        })
+        .collect();
+    Ok(prefilter(width as usize, height as usize, &texels))
+}
+
+/// The light that a value of sRGB stands for (IEC 61966-2-1).
+fn linear(value: f32) -> f32 {
+    if value <= 0.040_45 { value / 12.92 } else { ((value + 0.055) / 1.055).powf(2.4) }
+}
+
+impl Light {
+    /// What the light emits from a point on it.
+    pub(super) fn emitted(&self, point: DVec3) -> DVec3 {
+        match (&self.picture, &self.shape) {
+            (Some(picture), light::Light::Polygon { points, .. }) => {
+                let (u, v) = (points[1] - points[0], points[0] - points[3]);
+                let offset = point - points[3];
+                let area = u.cross(v);
+                let at = [offset.cross(v).dot(area), u.cross(offset).dot(area)]
+                    .map(|share| share / area.length_squared());
+                let [red, green, blue, _] = picture.sample(at, 0.0);
+                self.radiance * DVec3::new(red, green, blue)
+            }
+            _ => self.radiance,
+        }
+    }
+}
