@@ -2907,7 +2907,8 @@ fn ltc_reflected(shading: LtcShading, material: LtcMaterial, received: LtcReceiv
     var radiance = material.base_colour * received.diffuse;
     if (ltc_use_rough_diffuse) {
         let diffuse = ltc_surface_with_roughness(shading.surface, material.diffuse_roughness);
-        radiance = ltc_rough_diffuse(diffuse, shading.rough, vec3<f32>(received.diffuse, received.rough, 0.0), material.base_colour);
+        let rough = ltc_rough_diffuse(diffuse, shading.rough, vec3<f32>(received.diffuse, received.rough, 0.0), material.base_colour);
+        radiance = select(radiance, rough, material.diffuse_roughness > 0.0);
     }
     if (ltc_use_ggx) {
         let value = vec3<f32>(received.diffuse, received.specular);

@@ -1,8 +1,10 @@
 //! `softbox eval`.
 
+use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::Context;
 use clap::{Args, ValueEnum};
@@ -10,11 +12,16 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::Value;
-use softbox::brdf::Ggx;
+use softbox::brdf::{Brdf, Ggx};
 use softbox::device::{Batch, Device, EvaluateSurface, Program};
 use softbox::light::{Light, LightError, light_value};
-use softbox::shade::{LTC_ROUGHNESS_FLOOR, Real, Vector, ltc_surface};
+use softbox::scene::load_picture;
+use softbox::shade::{
+    LTC_ROUGHNESS_FLOOR, LtcLookup, Real, Vector, ltc_quad_begin, ltc_quad_lobe, ltc_quad_toward,
+    ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_surface,
+};
 use softbox::table::Table;
+use softbox::texture::Prefiltered;
 use softbox::truth;
 
 /// The long help.
@@ -32,6 +39,8 @@ counter-clockwise, with radiance 1. Other lights:
 {"shape":"tube","start":[x,y,z],"end":[x,y,z],"radius":r,"caps":false}
 
 A disk emits towards half_x x half_y, a tube from its lateral surface, with caps from two hemispheres too.
+A polygon that is a parallelogram may show a "picture", the name of a PNG file in sRGB: its first point is
+the picture's lower left corner, and each integral is then three, of red, green and blue.
 One line each is written:
 
 {"diffuse":d,"specular":s,"fresnel":f}
@@ -80,6 +89,13 @@ struct Case {
     view: DVec3,
     roughness: f64,
     light: Light,
+    picture: Option<Arc<Prefiltered>>,
+}
+
+/// Diffuse, specular and fresnel value, each alone or in red, green and blue.
+enum Values {
+    White([f64; 3]),
+    Colour([DVec3; 3]),
 }
 
 /// The shapes that a case may name.
@@ -111,7 +127,7 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
     let mut output = BufWriter::new(io::stdout().lock());
     let mut cases: Vec<Case> = Vec::new();
     let mut flush = |cases: &mut Vec<Case>| -> anyhow::Result<()> {
-        let values: Vec<[f64; 3]> = match arguments.on {
+        let values: Vec<Values> = match arguments.on {
             On::Cpu => cases.par_iter().map(|case| by_twin::<f32>(&table, case)).collect(),
             On::CpuF64 => cases.par_iter().map(|case| by_twin::<f64>(&table, case)).collect(),
             On::Truth => cases.par_iter().map(by_truth).collect(),
@@ -120,15 +136,16 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
                 None => Vec::new(),
             },
         };
-        for [diffuse, specular, fresnel] in values {
-            let written = if matches!(arguments.on, On::Cpu | On::Gpu) {
-                // The shortest text that is the same single-precision number.
-                let (diffuse, specular, fresnel) = (diffuse as f32, specular as f32, fresnel as f32);
-                writeln!(output, r#"{{"diffuse":{diffuse:?},"specular":{specular:?},"fresnel":{fresnel:?}}}"#)
-            } else {
-                writeln!(output, r#"{{"diffuse":{diffuse:?},"specular":{specular:?},"fresnel":{fresnel:?}}}"#)
+        let single = matches!(arguments.on, On::Cpu | On::Gpu);
+        // The shortest text that is the same number of that precision.
+        let number = |value: f64| if single { format!("{:?}", value as f32) } else { format!("{value:?}") };
+        let colour = |value: DVec3| format!("[{}]", value.to_array().map(number).join(","));
+        for values in values {
+            let [diffuse, specular, fresnel] = match values {
+                Values::White(values) => values.map(number),
+                Values::Colour(values) => values.map(colour),
             };
-            match written {
+            match writeln!(output, r#"{{"diffuse":{diffuse},"specular":{specular},"fresnel":{fresnel}}}"#) {
                 // Whoever reads has seen enough.
                 Err(error) if error.kind() == io::ErrorKind::BrokenPipe => std::process::exit(0),
                 other => other.context("cannot write to standard output")?,
@@ -138,7 +155,7 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
         cases.clear();
         Ok(())
     };
-    let single = matches!(arguments.on, On::Cpu | On::Gpu);
+    let mut pictures = BTreeMap::new();
     let mut line = Vec::new();
     let mut vertices = 0;
     for number in 1.. {
@@ -146,7 +163,7 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
         let parsed = match input.read_until(b'\n', &mut line) {
             Ok(0) => break,
             Ok(_) if line.iter().all(u8::is_ascii_whitespace) => continue,
-            Ok(_) => parse(&line, single).with_context(|| format!("line {number}")),
+            Ok(_) => parse(&line, arguments.on, &mut pictures).with_context(|| format!("line {number}")),
             Err(error) => Err(error).with_context(|| format!("cannot read {name} at line {number}")),
         };
         match parsed {
@@ -169,7 +186,11 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
     flush(&mut cases)
 }
 
-fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
+/// Pictures by the names of their files.
+type Pictures = BTreeMap<String, Arc<Prefiltered>>;
+
+fn parse(line: &[u8], on: On, pictures: &mut Pictures) -> anyhow::Result<Case> {
+    let single = matches!(on, On::Cpu | On::Gpu);
     let text = std::str::from_utf8(line).map_err(|_| anyhow::anyhow!("the line is not UTF-8 text"))?;
     let text = text.trim_start_matches('\u{feff}').trim_end();
     let value: Value = serde_json::from_str(text).map_err(|error| {
@@ -195,8 +216,36 @@ fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
         Some(shape) => anyhow::bail!("the light's shape is {shape}, but the known shapes are {SHAPES:?}"),
         None => anyhow::bail!("the light has no field `shape`; the known shapes are {SHAPES:?}"),
     };
+    let picture = match light.get("picture") {
+        None => None,
+        Some(_) if on == On::Gpu => {
+            anyhow::bail!("the light has a picture, which cpu, cpu-f64 and truth evaluate, but not gpu")
+        }
+        Some(Value::String(name)) => match pictures.get(name) {
+            Some(picture) => Some(picture.clone()),
+            None => {
+                let picture = Arc::new(load_picture(Path::new(name))?);
+                pictures.insert(name.clone(), picture.clone());
+                Some(picture)
+            }
+        },
+        Some(name) => anyhow::bail!("the light's picture is {name}, but must be the name of a PNG file"),
+    };
     let light =
         Light::deserialize(&light).map_err(|error| anyhow::anyhow!("not a {shape} light: {error}"))?;
+    if picture.is_some() {
+        let is_parallelogram = match &light {
+            Light::Polygon { points, .. } if points.len() == 4 => {
+                let [a, b, c, d] = [points[0], points[1], points[2], points[3]];
+                (a + c - b - d).length() <= 1e-4 * (c - a).length().max((d - b).length())
+            }
+            _ => false,
+        };
+        anyhow::ensure!(
+            is_parallelogram,
+            "the light has a picture, but only a polygon that is a parallelogram can show one"
+        );
+    }
     match light.check() {
         // It emits nothing, and the include says so.
         Err(LightError::NoArea) => {}
@@ -227,18 +276,35 @@ fn parse(line: &[u8], single: bool) -> anyhow::Result<Case> {
         view: direction("view", surface.view)?,
         roughness,
         light,
+        picture,
     })
 }
 
-fn by_twin<R: Real>(table: &Table, case: &Case) -> [f64; 3] {
+fn by_twin<R: Real>(table: &Table, case: &Case) -> Values {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), R::new(case.roughness));
     let lobe = table.lobe(&surface);
     let value = light_value(&surface, &lobe, &case.light);
-    [value.x(), value.y(), value.z()].map(Real::to_f64)
+    let [diffuse, specular, fresnel] = [value.x(), value.y(), value.z()].map(Real::to_f64);
+    let (Some(picture), Light::Polygon { points, two_sided }) = (&case.picture, &case.light) else {
+        return Values::White([diffuse, specular, fresnel]);
+    };
+    let [a, b, c, d] = [points[0], points[1], points[2], points[3]].map(v);
+    let quad = ltc_quad_begin(&surface, [a, b, c, d], *two_sided);
+    let texels: R::Vec2 = picture.texels().map(R::new).into();
+    let colour = |at: LtcLookup<R>| {
+        let place: [R; 2] = at.place.into();
+        let [red, green, blue, _] = picture.sample(place.map(Real::to_f64), at.level.to_f64());
+        DVec3::new(red, green, blue)
+    };
+    let toward = ltc_quad_toward(&surface, &quad);
+    let matte = colour(ltc_rectangle_diffuse_lookup(&surface, [a, b, d], toward, texels, false));
+    let toward = ltc_quad_lobe(&quad, &lobe);
+    let glossy = colour(ltc_rectangle_lookup(&surface, &lobe, [a, b, d], toward, texels, false));
+    Values::Colour([matte * diffuse, glossy * specular, glossy * fresnel])
 }
 
-fn by_truth(case: &Case) -> [f64; 3] {
+fn by_truth(case: &Case) -> Values {
     let normal = normalized(case.normal);
     let (tangent, bitangent) = normal.any_orthonormal_pair();
     let place = |v: DVec3| DVec3::new(v.dot(tangent), v.dot(bitangent), v.dot(normal));
@@ -248,8 +314,35 @@ fn by_truth(case: &Case) -> [f64; 3] {
     let view = view.normalize();
     let light = case.light.moved(|point| place(point - case.position), place);
     let alpha = case.roughness.max(LTC_ROUGHNESS_FLOOR).powi(2);
+    if let (Some(picture), Light::Polygon { points, two_sided }) = (&case.picture, &light) {
+        return pictured(&Ggx::new(alpha), view, points, *two_sided, picture);
+    }
     let truth = truth::light(&Ggx::new(alpha), view, &light, 1e-7);
-    [truth.diffuse, truth.specular, truth.fresnel]
+    Values::White([truth.diffuse, truth.specular, truth.fresnel])
+}
+
+/// Ground truth of a light that shows a picture: the sum of what its texels add.
+fn pictured(
+    brdf: &dyn Brdf,
+    view: DVec3,
+    points: &[DVec3],
+    two_sided: bool,
+    picture: &Prefiltered,
+) -> Values {
+    let mut sums = [DVec3::ZERO; 3];
+    let [a, b, d] = [points[0], points[1], points[3]];
+    let front = (b - a).cross(d - a).dot(a) < 0.0;
+    if front || two_sided {
+        let image = &picture.levels()[0];
+        let shares = truth::texel_shares(brdf, view, [a, b, d], [image.width, image.height]);
+        for (&[red, green, blue, _], share) in image.texels.iter().zip(shares) {
+            let colour = DVec3::new(red.into(), green.into(), blue.into());
+            for (sum, share) in sums.iter_mut().zip(share) {
+                *sum += colour * share;
+            }
+        }
+    }
+    Values::Colour(sums)
 }
 
 /// The direction of a vector of any length.
@@ -257,7 +350,7 @@ fn normalized(v: DVec3) -> DVec3 {
     (v / v.abs().max_element()).normalize()
 }
 
-fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<Vec<[f64; 3]>> {
+fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<Vec<Values>> {
     let mut batch = Batch::default();
     for (index, case) in cases.iter().enumerate() {
         let single = |v: DVec3| <[f32; 3]>::from(v.as_vec3());
@@ -273,7 +366,7 @@ fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<V
     }
     let program = Program::wgsl(format!("{}\n{}", softbox::WGSL_INCLUDE, softbox::WGSL_EVALUATE));
     let values = device.evaluate(&program, table, &batch)?;
-    Ok(values.into_iter().map(|value| value.map(f64::from)).collect())
+    Ok(values.into_iter().map(|value| Values::White(value.map(f64::from))).collect())
 }
 
 /// How many vectors of a storage buffer a light takes.

@@ -6,6 +6,7 @@ mod effects;
 mod eval;
 mod model;
 mod package;
+mod prefilter;
 mod progress;
 mod render;
 mod select;
@@ -28,6 +29,8 @@ enum Command {
     Build(package::BuildArguments),
     /// Bake one table into one file.
     Bake(bake::BakeArguments),
+    /// Blur a picture for a textured light: write its mipmaps.
+    Prefilter(prefilter::PrefilterArguments),
     /// Render a scene file, on a device and by numerical integration.
     Render(render::RenderArguments),
     /// Tell which effects a scene calls for.
@@ -50,6 +53,7 @@ fn main() {
     let result = match Arguments::parse().command {
         Command::Build(arguments) => package::build(&arguments),
         Command::Bake(arguments) => bake::bake(&arguments),
+        Command::Prefilter(arguments) => prefilter::prefilter(&arguments),
         Command::Render(arguments) => render::render(&arguments),
         Command::Effects(arguments) => effects::effects(&arguments),
         Command::Select(arguments) => select::select(&arguments),

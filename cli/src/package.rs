@@ -8,6 +8,7 @@ use clap::Args;
 use softbox::effects::Effects;
 use softbox::fit::Layout;
 use softbox::package::{self, Contents, Step};
+use softbox::scene::Scene;
 
 use crate::bake::{check_size, print_row, write_file};
 use crate::model::ModelArguments;
@@ -27,6 +28,9 @@ pub struct BuildArguments {
     /// include, and a table with the layers that it needs. `softbox select --list` names all effects.
     #[arg(long, value_name = "SET", conflicts_with = "update")]
     effects: Option<Effects>,
+    /// A scene file: the package holds what it calls for.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "update"])]
+    scene: Option<PathBuf>,
     /// Write the translations and raw tables over those of a repository instead of a package.
     #[arg(long, value_name = "REPOSITORY", conflicts_with = "out")]
     update: Option<PathBuf>,
@@ -36,8 +40,11 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     let started = Instant::now();
     check_size(arguments.table_size)?;
     let family = arguments.model.family()?;
-    let contents =
-        Contents { table_size: arguments.table_size, effects: arguments.effects, ..Contents::default() };
+    let effects = match &arguments.scene {
+        Some(scene) => Some(Scene::load(scene)?.effects()),
+        None => arguments.effects,
+    };
+    let contents = Contents { table_size: arguments.table_size, effects, ..Contents::default() };
     let bar = progress::bar("Building");
     let shown = Mutex::new(None);
     let package = package::build(&family, &contents, &|step, share| {

@@ -257,3 +257,62 @@ fn help_describes_the_input() {
         assert!(softbox(&[command, "--help"], "").status.success());
     }
 }
+
+#[test]
+fn pictures_are_prefiltered_and_shine() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sunset = concat!(env!("CARGO_MANIFEST_DIR"), "/../scenes/sunset.png");
+    let out = folder.path().join("sunset.ktx2");
+    let path = out.to_str().expect("a path");
+    let output = softbox(&["prefilter", sunset, "--out", path], "");
+    assert!(output.status.success() && text(&output.stdout).contains("9 levels"), "{output:?}");
+    assert!(std::fs::read(&out).expect("the pyramid").starts_with(b"\xABKTX 20\xBB"));
+    let elsewhere = folder.path().join("sunset.png");
+    assert_refused(
+        &softbox(&["prefilter", sunset, "--out", elsewhere.to_str().expect("a path")], ""),
+        &[".ktx2"],
+    );
+    assert_refused(&softbox(&["prefilter", "no/such.png", "--out", path], ""), &["no/such.png", "PNG"]);
+    // A red sky over a dark sea: more red than blue, in the twin as in truth.
+    let with = |field: &str| GOOD.replace(r#""shape":"polygon","#, &format!(r#""shape":"polygon",{field},"#));
+    let shown = with(&format!(r#""picture":"{sunset}""#));
+    for on in ["cpu", "cpu-f64", "truth"] {
+        let output = softbox(&["eval", "--on", on], &shown);
+        assert!(output.status.success(), "{on}: {}", text(&output.stderr));
+        for name in ["diffuse", "specular", "fresnel"] {
+            let colour: Vec<f64> = lines(&output)[0][name]
+                .as_array()
+                .expect("three numbers")
+                .iter()
+                .map(|value| value.as_f64().expect("a number"))
+                .collect();
+            assert!(colour.len() == 3 && colour[0] > colour[2] && colour[2] > 0.0, "{on}: {name} {colour:?}");
+        }
+    }
+    assert_refused(&softbox(&["eval", "--on", "gpu"], &shown), &["line 1", "picture", "not gpu"]);
+    assert_refused(&softbox(&["eval"], &with(r#""picture":"no/such.png""#)), &["line 1", "no/such.png"]);
+    assert_refused(&softbox(&["eval"], &with(r#""picture":7"#)), &["line 1", "PNG file"]);
+    let bent = shown.replace("[1,-1,1]]", "[2,-1,1]]");
+    assert_refused(&softbox(&["eval"], &bent), &["line 1", "parallelogram"]);
+}
+
+/// Lights of every shape that cannot be shaded are refused in one sentence.
+#[test]
+fn eval_refuses_lights_that_cannot_be_shaded() {
+    let polygon = r#""shape":"polygon","points":[[-1,-1,1],[-1,1,1],[1,1,1],[1,-1,1]]"#;
+    assert!(GOOD.contains(polygon));
+    for (light, words) in [
+        (r#""shape":"disk","center":[0,0,1],"half_x":[0,0,0],"half_y":[0,1,0]"#, "half_x is zero"),
+        (r#""shape":"disk","center":[0,0,1],"half_x":[1,0,0],"half_y":[2,0,0]"#, "parallel"),
+        (r#""shape":"disk","center":[0,0,1],"half_x":[1,0,0]"#, "missing field `half_y`"),
+        (r#""shape":"sphere","center":[0,0,1],"radius":0"#, "radius is 0"),
+        (r#""shape":"sphere","center":[0,0,1],"radius":-2"#, "radius is -2"),
+        (r#""shape":"tube","start":[0,0,1],"end":[1,0,1],"radius":1e39"#, "not finite in single precision"),
+        (r#""shape":"polygon","points":[[-1,-1,1],[1,1,1],[-1,1,1],[1,-1,1]]"#, "cross"),
+        (r#""shape":"polygon","points":[[-2,-1,1],[1,1,1],[-1,1,1],[1,-1,1]]"#, "cross"),
+        (r#""shape":"polygon","points":[[-1,-1,1],[-1,1,1],[1,1,2],[1,-1,1]]"#, "not in one plane"),
+    ] {
+        let output = softbox(&["eval"], &GOOD.replace(polygon, light));
+        assert_refused(&output, &["line 1", words]);
+    }
+}

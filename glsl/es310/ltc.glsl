@@ -3511,42 +3511,43 @@ vec3 ltc_reflected(LtcShading shading, LtcMaterial material, LtcReceived receive
     if (ltc_use_rough_diffuse) {
         LtcSurface _e10 = ltc_surface_with_roughness(shading.surface, material.diffuse_roughness);
         vec3 _e17 = ltc_rough_diffuse(_e10, shading.rough, vec3(received.diffuse, received.rough, 0.0), material.base_colour);
-        radiance = _e17;
+        vec3 _e18 = radiance;
+        radiance = ((material.diffuse_roughness > 0.0) ? _e17 : _e18);
     }
 #endif
 #if LTC_GGX
     if (ltc_use_ggx) {
         vec3 value = vec3(received.diffuse, received.specular);
-        vec3 _e24 = ltc_reflectance(value, material.normal_reflectance, material.grazing_reflectance);
-        specular_2 = _e24;
+        vec3 _e29 = ltc_reflectance(value, material.normal_reflectance, material.grazing_reflectance);
+        specular_2 = _e29;
 #if LTC_ENERGY_COMPENSATION
         if (ltc_use_energy_compensation) {
-            vec3 _e27 = specular_2;
-            vec3 _e30 = ltc_energy_compensation(shading.specular, material.normal_reflectance);
-            specular_2 = (_e27 * _e30);
+            vec3 _e32 = specular_2;
+            vec3 _e35 = ltc_energy_compensation(shading.specular, material.normal_reflectance);
+            specular_2 = (_e32 * _e35);
         }
 #endif
-        vec3 _e32 = radiance;
-        vec3 _e33 = specular_2;
-        radiance = (_e32 + _e33);
+        vec3 _e37 = radiance;
+        vec3 _e38 = specular_2;
+        radiance = (_e37 + _e38);
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        vec3 _e36 = radiance;
-        vec3 _e43 = ltc_sheen_over(_e36, shading.sheen, vec3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
-        radiance = _e43;
+        vec3 _e41 = radiance;
+        vec3 _e48 = ltc_sheen_over(_e41, shading.sheen, vec3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
+        radiance = _e48;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        vec3 _e45 = radiance;
-        vec3 _e52 = ltc_coat_over(_e45, shading.coat, vec3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
-        radiance = _e52;
+        vec3 _e50 = radiance;
+        vec3 _e57 = ltc_coat_over(_e50, shading.coat, vec3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = _e57;
     }
 #endif
-    vec3 _e53 = radiance;
-    return _e53;
+    vec3 _e58 = radiance;
+    return _e58;
 }
 
 #if LTC_TEXTURED

@@ -75,7 +75,16 @@ pub fn polygon_normal(points: &[DVec3]) -> Result<DVec3, LightError> {
     let slack = slack / size.max(f64::MIN_POSITIVE);
     let area: DVec3 = sides.windows(2).map(|pair| pair[0].cross(pair[1])).sum();
     if size == 0.0 || area.length() < 1e-9 {
-        return Err(LightError::NoArea);
+        // A bow tie may cover as much on one side as on the other; its plane is that of any three of its points.
+        let wide = sides.iter().flat_map(|a| sides.iter().map(move |b| a.cross(*b)));
+        let wide = wide.max_by(|a, b| a.length_squared().total_cmp(&b.length_squared()));
+        let crossed = wide
+            .filter(|normal| normal.length() > 1e-6)
+            .and_then(|normal| crossing(&sides, normal.normalize(), slack));
+        return Err(match crossed {
+            Some((first, second)) => LightError::Crossing { first: first + 1, second: second + 1 },
+            None => LightError::NoArea,
+        });
     }
     let normal = area.normalize();
     // A narrow polygon's plane is known no better than its width allows.

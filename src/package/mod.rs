@@ -8,7 +8,7 @@ pub use write::{WriteError, write_folder};
 use crate::effects::{self, Effects, EffectsError};
 use crate::fit::{self, Family, Layout, Settings};
 use crate::report::{self, Accuracy, REGIONS, Technique};
-use crate::table::{AnisotropicTable, Container, ContainerError, Layer, Table};
+use crate::table::{Container, ContainerError, Layer, Table};
 use crate::translate::{self, Target, TranslateError};
 
 /// The file of a package that names all its files, itself included, a line each.
@@ -197,29 +197,22 @@ fn with_layers(
     effects: Effects,
     progress: &(dyn Fn(Step, f64) + Sync),
 ) -> Result<Table, PackageError> {
-    let size = table.size();
-    let embedded = size == crate::TABLE_SIZE;
-    let layers = effects.layers();
+    let (size, layers) = (table.size(), effects.layers());
+    if size == crate::TABLE_SIZE {
+        return Ok(table.completed(&layers));
+    }
+    if layers.contains(&Layer::AnisotropicFirst) {
+        return Err(PackageError::Anisotropic { effects, size });
+    }
     let bake = |settings: Settings, family: &dyn Family| {
         let layout = settings.layout;
         Table::pack(&fit::bake(family, settings, &|share| progress(Step::Bake(layout), share)))
     };
-    let mut table = table;
-    if layers.contains(&Layer::Sheen) {
-        let sheen = if embedded { Table::sheen() } else { bake(Settings::sheen(size), &fit::sheen) };
-        table = table.with(&sheen);
-    }
-    if layers.contains(&Layer::Diffuse) {
-        let diffuse = if embedded { Table::diffuse() } else { bake(Settings::diffuse(size), &fit::diffuse) };
-        table = table.with(&diffuse);
-    }
-    if layers.contains(&Layer::AnisotropicFirst) {
-        if !embedded {
-            return Err(PackageError::Anisotropic { effects, size });
-        }
-        table = table.with(AnisotropicTable::default().layers());
-    }
-    Ok(table)
+    Ok(layers.into_iter().fold(table, |table, layer| match layer {
+        Layer::Sheen => table.with(&bake(Settings::sheen(size), &fit::sheen)),
+        Layer::Diffuse => table.with(&bake(Settings::diffuse(size), &fit::diffuse)),
+        _ => table,
+    }))
 }
 
 /// Measures a table in every region.

@@ -15,6 +15,7 @@ mod truth;
 
 pub use file::SceneError;
 pub use image::{Comparison, Image, ImageError, Panel, check_png_path, write_png};
+pub use picture::load_picture;
 pub use ray::{Hit, sample_positions};
 pub use truth::{Truth, render_truth};
 

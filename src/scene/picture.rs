@@ -4,14 +4,28 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::Light;
+use super::{Light, SceneError};
 use crate::light;
 use crate::texture::{Prefiltered, prefilter};
 
 /// Largest number of texels along a side: what every device takes.
 const LARGEST_SIDE: u32 = 4096;
 
-/// Reads a picture in sRGB and makes its pyramid, linear and premultiplied by alpha, or says why not.
+/// Reads a PNG file in sRGB and makes its pyramid, linear and premultiplied by alpha.
+///
+/// # Errors
+///
+/// If the file cannot be read, is no PNG file, or is too large.
+pub fn load_picture(path: &Path) -> Result<Prefiltered, SceneError> {
+    read_picture(path).map_err(|reason| {
+        SceneError::new(
+            path.display().to_string(),
+            format!("the picture could not be read ({reason}); name a PNG file of up to {LARGEST_SIDE} texels a side"),
+        )
+    })
+}
+
+/// [`load_picture`], with nothing but the reason for an error.
 pub(super) fn read_picture(path: &Path) -> Result<Prefiltered, String> {
     let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
     let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)

@@ -59,7 +59,7 @@ pub use quad::{
     LtcQuad, ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about, ltc_edge_excess,
     ltc_edge_near, ltc_edge_normal, ltc_edge_part, ltc_far_offset, ltc_far_pentagon, ltc_is_above,
     ltc_offset, ltc_pentagon, ltc_quad, ltc_quad_begin, ltc_quad_diffuse, ltc_quad_form_factor,
-    ltc_quad_lobe,
+    ltc_quad_lobe, ltc_quad_toward,
 };
 pub use real::{Real, Vector, angle_excess, hyperbolic_excess};
 pub use surface::{
@@ -77,6 +77,6 @@ pub use tube::{
 };
 pub use whole::{
     LtcMaterial, LtcReceived, LtcShading, ltc_in_range, ltc_material, ltc_plain_value, ltc_reflected,
-    ltc_shading, ltc_shading_disk, ltc_shading_polygon, ltc_shading_quad, ltc_shading_sphere,
-    ltc_shading_tube,
+    ltc_reflected_picture, ltc_shading, ltc_shading_disk, ltc_shading_polygon, ltc_shading_quad,
+    ltc_shading_sphere, ltc_shading_tube,
 };

@@ -308,6 +308,12 @@ pub fn ltc_quad_diffuse<R: Real>(surface: &LtcSurface<R>, quad: &LtcQuad<R>) -> 
     ltc_received(sum * R::new(OVER_TWO_PI), quad.front, quad.two_sided)
 }
 
+/// The vector form factor of a quad, cut at the surface's horizon, in the caller's space, towards the light.
+pub fn ltc_quad_toward<R: Real>(surface: &LtcSurface<R>, quad: &LtcQuad<R>) -> R::Vec3 {
+    let form_factor = ltc_quad_form_factor(quad) * R::new(OVER_TWO_PI);
+    if surface.normal.dot(form_factor) < R::new(0.0) { -form_factor } else { form_factor }
+}
+
 /// The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
 pub fn ltc_quad_lobe<R: Real>(quad: &LtcQuad<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     let zero: R = R::new(0.0);

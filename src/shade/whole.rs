@@ -11,11 +11,12 @@ use super::polygon::{
     ltc_outline_add, ltc_outline_begin, ltc_outline_diffuse, ltc_outline_lobe, ltc_outline_lobe_add,
     ltc_outline_lobe_begin,
 };
-use super::quad::{ltc_quad_begin, ltc_quad_diffuse, ltc_quad_lobe};
+use super::quad::{ltc_quad_begin, ltc_quad_diffuse, ltc_quad_lobe, ltc_quad_toward};
 use super::real::{Real, Vector};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_lobe_value, ltc_reflectance, ltc_surface,
 };
+use super::texture::{LtcLookup, ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup};
 use super::tube::{ltc_tube_begin, ltc_tube_diffuse, ltc_tube_lobe};
 use crate::effects::{Effect, Effects};
 use crate::table::Table;
@@ -275,7 +276,7 @@ pub fn ltc_reflected<R: Real>(
     let value = |lobe: R, fresnel: R| R::Vec3::new(received.diffuse, lobe, fresnel);
     let zero: R = R::new(0.0);
     let mut radiance = material.base_colour * received.diffuse;
-    if let Some(rough) = &shading.rough {
+    if let Some(rough) = shading.rough.as_ref().filter(|_| material.diffuse_roughness > zero) {
         let surface = ltc_surface_with_roughness(&shading.surface, material.diffuse_roughness);
         radiance = ltc_rough_diffuse(&surface, rough, value(received.rough, zero), material.base_colour);
     }
@@ -296,6 +297,61 @@ pub fn ltc_reflected<R: Real>(
         let [gloss, fresnel] = received.coat.into();
         let (reflectance, weight) = (material.coat_reflectance, material.coat);
         radiance = ltc_coat_over(radiance, coat, value(gloss, fresnel), reflectance, weight);
+    }
+    radiance
+}
+
+/// Radiance that a surface reflects of a rectangle, or another parallelogram, that shows a picture of `texels` texels
+/// along each axis: each lobe sees the picture as blurred as it is wide. `sample` gives its colour at texture
+/// coordinates and a level.
+pub fn ltc_reflected_picture<R: Real>(
+    shading: &LtcShading<R>,
+    material: &LtcMaterial<R>,
+    vertices: [R::Vec3; 4],
+    two_sided: bool,
+    texels: R::Vec2,
+    sample: impl Fn(R::Vec2, R) -> R::Vec3,
+) -> R::Vec3 {
+    let zero: R = R::new(0.0);
+    let none = LtcReceived {
+        diffuse: zero,
+        rough: zero,
+        specular: [zero, zero].into(),
+        coat: [zero, zero].into(),
+        sheen: zero,
+    };
+    let surface = &shading.surface;
+    let quad = ltc_quad_begin(surface, vertices, two_sided);
+    let corners = [vertices[0], vertices[1], vertices[3]];
+    // What is reflected is linear in what is received, so each part brings its own colour.
+    let part = |received: LtcReceived<R>, at: LtcLookup<R>| {
+        let (light, colour) = (ltc_reflected(shading, material, &received), sample(at.place, at.level));
+        R::Vec3::new(light.x() * colour.x(), light.y() * colour.y(), light.z() * colour.z())
+    };
+    let plain = |lobe: &LtcLobe<R>| ltc_plain_value(lobe, ltc_quad_lobe(&quad, lobe));
+    let diffuse = LtcReceived {
+        diffuse: ltc_quad_diffuse(surface, &quad),
+        rough: shading.rough.as_ref().map_or(zero, plain),
+        ..none
+    };
+    let toward = ltc_quad_toward(surface, &quad);
+    let mut radiance = part(diffuse, ltc_rectangle_diffuse_lookup(surface, corners, toward, texels, false));
+    let look = |lobe: &LtcLobe<R>| {
+        let toward = ltc_quad_lobe(&quad, lobe);
+        (toward, ltc_rectangle_lookup(surface, lobe, corners, toward, texels, false))
+    };
+    if let Some(lobe) = &shading.specular {
+        let (toward, at) = look(lobe);
+        radiance =
+            radiance + part(LtcReceived { specular: ltc_lobe_value(surface, lobe, toward), ..none }, at);
+    }
+    if let Some(lobe) = &shading.coat {
+        let (toward, at) = look(lobe);
+        radiance = radiance + part(LtcReceived { coat: ltc_lobe_value(surface, lobe, toward), ..none }, at);
+    }
+    if let Some(lobe) = &shading.sheen {
+        let (toward, at) = look(lobe);
+        radiance = radiance + part(LtcReceived { sheen: ltc_plain_value(lobe, toward), ..none }, at);
     }
     radiance
 }

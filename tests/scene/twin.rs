@@ -4,10 +4,8 @@ use glam::{DVec2, DVec3};
 use softbox::light::{self, is_convex_quad};
 use softbox::scene::{Hit, Light, Scene};
 use softbox::shade::{
-    LtcMaterial, LtcReceived, LtcShading, ltc_lobe_value, ltc_plain_value, ltc_quad_begin, ltc_quad_diffuse,
-    ltc_quad_form_factor, ltc_quad_lobe, ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_reflected,
-    ltc_shading, ltc_shading_disk, ltc_shading_polygon, ltc_shading_quad, ltc_shading_sphere,
-    ltc_shading_tube,
+    LtcMaterial, LtcReceived, LtcShading, ltc_reflected, ltc_reflected_picture, ltc_shading,
+    ltc_shading_disk, ltc_shading_polygon, ltc_shading_quad, ltc_shading_sphere, ltc_shading_tube,
 };
 use softbox::table::Table;
 use softbox::texture::Prefiltered;
@@ -78,7 +76,6 @@ fn received(shading: &LtcShading<f64>, light: &light::Light) -> LtcReceived<f64>
     }
 }
 
-/// `ltc_reflected_picture` of the include.
 fn pictured(
     shading: &LtcShading<f64>,
     material: &LtcMaterial<f64>,
@@ -86,38 +83,10 @@ fn pictured(
     picture: &Prefiltered,
 ) -> DVec3 {
     let light::Light::Polygon { points, two_sided } = light else { panic!("a picture on {light:?}") };
-    let surface = &shading.surface;
-    let quad = ltc_quad_begin(surface, [points[0], points[1], points[2], points[3]], *two_sided);
-    let corners = [points[0], points[1], points[3]];
+    let vertices = [points[0], points[1], points[2], points[3]];
     let texels = DVec2::from(picture.texels());
-    let none: LtcReceived<f64> =
-        LtcReceived { diffuse: 0.0, rough: 0.0, specular: DVec2::ZERO, coat: DVec2::ZERO, sheen: 0.0 };
-    let form_factor = ltc_quad_form_factor(&quad);
-    let form_factor = form_factor * surface.normal.dot(form_factor).signum();
-    let place = ltc_rectangle_diffuse_lookup(surface, corners, form_factor, texels, false);
-    let mut received = none;
-    received.diffuse = ltc_quad_diffuse(surface, &quad);
-    if let Some(lobe) = &shading.rough {
-        received.rough = ltc_plain_value(lobe, ltc_quad_lobe(&quad, lobe));
-    }
-    let mut parts = vec![(received, place)];
-    for (index, lobe) in [&shading.specular, &shading.coat, &shading.sheen].into_iter().enumerate() {
-        let Some(lobe) = lobe else { continue };
-        let toward = ltc_quad_lobe(&quad, lobe);
-        let mut received = none;
-        match index {
-            0 => received.specular = ltc_lobe_value(surface, lobe, toward),
-            1 => received.coat = ltc_lobe_value(surface, lobe, toward),
-            _ => received.sheen = ltc_plain_value(lobe, toward),
-        }
-        parts.push((received, ltc_rectangle_lookup(surface, lobe, corners, toward, texels, false)));
-    }
-    let colour = |place: DVec2, level: f64| {
+    ltc_reflected_picture(shading, material, vertices, *two_sided, texels, |place, level| {
         let [red, green, blue, _] = picture.sample(place.into(), level);
         DVec3::new(red, green, blue)
-    };
-    parts
-        .iter()
-        .map(|(received, at)| ltc_reflected(shading, material, received) * colour(at.place, at.level))
-        .sum()
+    })
 }
