@@ -604,7 +604,7 @@ float ltc_extent(float3 v)
 float3 ltc_direction(float3 v)
 {
     const float _e1 = ltc_extent(v);
-    float3 scaled = (v * (1.0 / max(_e1, LTC_TINY)));
+    float3 scaled = (v * (1.0 / clamp(_e1, LTC_TINY, 8e37)));
     return (scaled * rsqrt(max(dot(scaled, scaled), LTC_TINY)));
 }
 
@@ -948,9 +948,17 @@ float3 ltc_far_offset(float3 origin, float3 reference, float3 offset)
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
 // as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
-bool ltc_is_above(float3 v)
+bool ltc_is_above(float3 v, float tolerance)
 {
-    return ((v.z > 0.0) | ((v.z * v.z) < (1e-12 * dot(v, v))));
+    return ((v.z > 0.0) | ((v.z * v.z) < (tolerance * dot(v, v))));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
+float ltc_above_tolerance(LtcLobe lobe)
+{
+    return (1e-12 * min(dot(lobe.axis_z, lobe.axis_z), 1.0));
 }
 #endif
 
@@ -1014,17 +1022,18 @@ float ltc_cap_above(float3 form_factor, float3 normal)
 #if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 // horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
-float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_normal, float3 b_normal, float3 c_normal, float3 d_normal, float3 e_normal, bool five)
+// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ, and
+// `tolerance` is that of ltc_is_above.
+float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_normal, float3 b_normal, float3 c_normal, float3 d_normal, float3 e_normal, bool five, float tolerance)
 {
     float3 edges = (float3)0;
 
-    const bool _e11 = ltc_is_above(a);
-    const bool _e12 = ltc_is_above(b);
-    const bool _e13 = ltc_is_above(c);
-    const bool _e14 = ltc_is_above(d);
-    const bool _e15 = ltc_is_above(e);
-    if (!(((((_e11 | _e12) | _e13) | _e14) | _e15))) {
+    const bool _e12 = ltc_is_above(a, tolerance);
+    const bool _e13 = ltc_is_above(b, tolerance);
+    const bool _e14 = ltc_is_above(c, tolerance);
+    const bool _e15 = ltc_is_above(d, tolerance);
+    const bool _e16 = ltc_is_above(e, tolerance);
+    if (!(((((_e12 | _e13) | _e14) | _e15) | _e16))) {
         return (0.0).xxx;
     }
     float a_inverse = rsqrt(max(dot(a, a), LTC_TINY));
@@ -1037,56 +1046,56 @@ float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_n
     float3 c_unit = (c * c_inverse);
     float3 d_unit = (d * d_inverse);
     float3 e_unit = (e * e_inverse);
-    if (((((_e11 & _e12) & _e13) & _e14) & _e15)) {
-        const float3 _e53 = ltc_edge(a_unit, b_unit, a_normal, (a_inverse * b_inverse));
-        const float3 _e55 = ltc_edge(b_unit, c_unit, b_normal, (b_inverse * c_inverse));
-        const float3 _e58 = ltc_edge(c_unit, d_unit, c_normal, (c_inverse * d_inverse));
-        const float3 _e61 = ltc_edge(e_unit, a_unit, e_normal, (e_inverse * a_inverse));
-        edges = (((_e53 + _e55) + _e58) + _e61);
+    if (((((_e12 & _e13) & _e14) & _e15) & _e16)) {
+        const float3 _e54 = ltc_edge(a_unit, b_unit, a_normal, (a_inverse * b_inverse));
+        const float3 _e56 = ltc_edge(b_unit, c_unit, b_normal, (b_inverse * c_inverse));
+        const float3 _e59 = ltc_edge(c_unit, d_unit, c_normal, (c_inverse * d_inverse));
+        const float3 _e62 = ltc_edge(e_unit, a_unit, e_normal, (e_inverse * a_inverse));
+        edges = (((_e54 + _e56) + _e59) + _e62);
         if (five) {
-            float3 _e64 = edges;
-            const float3 _e66 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
-            edges = (_e64 + _e66);
+            float3 _e65 = edges;
+            const float3 _e67 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
+            edges = (_e65 + _e67);
         }
-        float3 _e68 = edges;
-        return -(_e68);
+        float3 _e69 = edges;
+        return -(_e69);
     }
-    bool leave_b = (_e12 & !(_e13));
-    bool leave_c = (_e13 & !(_e14));
-    bool leave_d = (_e14 & !(_e15));
-    bool leave_e = (_e15 & !(_e11));
+    bool leave_b = (_e13 & !(_e14));
+    bool leave_c = (_e14 & !(_e15));
+    bool leave_d = (_e15 & !(_e16));
+    bool leave_e = (_e16 & !(_e12));
     float3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
     float3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
     float3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
-    bool enter_b = (_e12 & !(_e11));
-    bool enter_c = (_e13 & !(_e12));
-    bool enter_d = (_e14 & !(_e13));
-    bool enter_e = (_e15 & !(_e14));
+    bool enter_b = (_e13 & !(_e12));
+    bool enter_c = (_e14 & !(_e13));
+    bool enter_d = (_e15 & !(_e14));
+    bool enter_e = (_e16 & !(_e15));
     float3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
     float3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
     float3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
-    const float3 _e110 = ltc_crossing(leave_from, leave_to, leave_normal);
-    const float3 _e112 = ltc_crossing(enter_to, enter_from, -(enter_normal));
-    float3 leave = (_e110 * rsqrt(max(dot(_e110, _e110), LTC_TINY)));
-    float3 enter = (_e112 * rsqrt(max(dot(_e112, _e112), LTC_TINY)));
-    float3 a_end = (_e11 ? a_unit : (_e15 ? leave : enter));
-    float3 b_end = (_e12 ? b_unit : (_e11 ? leave : enter));
-    float3 c_end = (_e13 ? c_unit : (_e12 ? leave : enter));
-    float3 d_end = (_e14 ? d_unit : (_e13 ? leave : enter));
-    float3 e_end = (_e15 ? e_unit : (_e14 ? leave : enter));
-    float3 a_start = (_e11 ? a_unit : enter);
-    float3 b_start = (_e12 ? b_unit : enter);
-    float3 c_start = (_e13 ? c_unit : enter);
-    float3 d_start = (_e14 ? d_unit : enter);
-    float3 e_start = (_e15 ? e_unit : enter);
-    const float3 _e139 = ltc_edge_normal(_e110, _e112, (_e112 - _e110));
-    const float3 _e140 = ltc_edge_part(leave, enter, _e139);
-    const float3 _e141 = ltc_edge_part(a_start, b_end, a_normal);
-    const float3 _e142 = ltc_edge_part(b_start, c_end, b_normal);
-    const float3 _e144 = ltc_edge_part(c_start, d_end, c_normal);
-    const float3 _e146 = ltc_edge_part(d_start, e_end, d_normal);
-    const float3 _e148 = ltc_edge_part(e_start, a_end, e_normal);
-    return -((((((_e141 + _e142) + _e144) + _e146) + _e148) + _e140));
+    const float3 _e111 = ltc_crossing(leave_from, leave_to, leave_normal);
+    const float3 _e113 = ltc_crossing(enter_to, enter_from, -(enter_normal));
+    float3 leave = (_e111 * rsqrt(max(dot(_e111, _e111), LTC_TINY)));
+    float3 enter = (_e113 * rsqrt(max(dot(_e113, _e113), LTC_TINY)));
+    float3 a_end = (_e12 ? a_unit : (_e16 ? leave : enter));
+    float3 b_end = (_e13 ? b_unit : (_e12 ? leave : enter));
+    float3 c_end = (_e14 ? c_unit : (_e13 ? leave : enter));
+    float3 d_end = (_e15 ? d_unit : (_e14 ? leave : enter));
+    float3 e_end = (_e16 ? e_unit : (_e15 ? leave : enter));
+    float3 a_start = (_e12 ? a_unit : enter);
+    float3 b_start = (_e13 ? b_unit : enter);
+    float3 c_start = (_e14 ? c_unit : enter);
+    float3 d_start = (_e15 ? d_unit : enter);
+    float3 e_start = (_e16 ? e_unit : enter);
+    const float3 _e140 = ltc_edge_normal(_e111, _e113, (_e113 - _e111));
+    const float3 _e141 = ltc_edge_part(leave, enter, _e140);
+    const float3 _e142 = ltc_edge_part(a_start, b_end, a_normal);
+    const float3 _e143 = ltc_edge_part(b_start, c_end, b_normal);
+    const float3 _e145 = ltc_edge_part(c_start, d_end, c_normal);
+    const float3 _e147 = ltc_edge_part(d_start, e_end, d_normal);
+    const float3 _e149 = ltc_edge_part(e_start, a_end, e_normal);
+    return -((((((_e142 + _e143) + _e145) + _e147) + _e149) + _e141));
 }
 #endif
 
@@ -1402,12 +1411,13 @@ float3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe)
         const float3 _e113 = ltc_transform_normal(lobe, quad.c_normal);
         const float3 _e115 = ltc_transform_normal(lobe, quad.d_normal);
         const float3 _e117 = ltc_transform_normal(lobe, quad.e_normal);
-        const float3 _e119 = ltc_pentagon((_e17 + _e7), (_e17 + _e9), (_e17 + _e11), (_e17 + _e13), (_e17 + _e15), _e109, _e111, _e113, _e115, _e117, quad.clipped);
-        sum = _e119;
+        const float _e119 = ltc_above_tolerance(lobe);
+        const float3 _e120 = ltc_pentagon((_e17 + _e7), (_e17 + _e9), (_e17 + _e11), (_e17 + _e13), (_e17 + _e15), _e109, _e111, _e113, _e115, _e117, quad.clipped, _e119);
+        sum = _e120;
     }
-    float3 _e120 = sum;
-    const float3 _e125 = ltc_received_vector((_e120 * LTC_OVER_TWO_PI), quad.front, quad.two_sided);
-    return _e125;
+    float3 _e121 = sum;
+    const float3 _e126 = ltc_received_vector((_e121 * LTC_OVER_TWO_PI), quad.front, quad.two_sided);
+    return _e126;
 }
 #endif
 
@@ -1618,50 +1628,51 @@ void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, float3 refe
     const float3 _e10 = ltc_transform(lobe, a_offset);
     const float3 _e11 = ltc_transform(lobe, b_offset);
     const float3 _e12 = ltc_transform_normal(lobe, normal);
-    const bool _e13 = ltc_is_above(_e8);
-    const bool _e14 = ltc_is_above(_e9);
-    if (!((_e13 | _e14))) {
+    const float _e13 = ltc_above_tolerance(lobe);
+    const bool _e14 = ltc_is_above(_e8, _e13);
+    const bool _e15 = ltc_is_above(_e9, _e13);
+    if (!((_e14 | _e15))) {
         return;
     }
     start = _e8;
     start_offset = _e10;
     end = _e9;
     end_offset = _e11;
-    if (!((_e13 & _e14))) {
-        float3 above = (_e13 ? _e8 : _e9);
-        float3 below = (_e13 ? _e9 : _e8);
-        float3 above_offset = (_e13 ? _e10 : _e11);
-        float3 below_offset = (_e13 ? _e11 : _e10);
+    if (!((_e14 & _e15))) {
+        float3 above = (_e14 ? _e8 : _e9);
+        float3 below = (_e14 ? _e9 : _e8);
+        float3 above_offset = (_e14 ? _e10 : _e11);
+        float3 below_offset = (_e14 ? _e11 : _e10);
         float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
-        const float3 _e38 = ltc_crossing(above, below, (_e13 ? _e12 : -(_e12)));
+        const float3 _e39 = ltc_crossing(above, below, (_e14 ? _e12 : -(_e12)));
         float3 crossing_offset_1 = (above_offset + ((below_offset - above_offset) * t));
-        bool _e43 = sum_2.crossed;
-        if (_e43) {
+        bool _e44 = sum_2.crossed;
+        if (_e44) {
             float3 base = sum_2.crossing;
             float3 base_offset = sum_2.crossing_offset;
-            float3 horizon_start = (_e13 ? _e38 : base);
-            float3 horizon_end = (_e13 ? base : _e38);
-            float3 _e51 = sum_2.sum;
-            const float3 _e55 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
-            const float3 _e56 = ltc_edge_from(reference, horizon_start, (_e13 ? crossing_offset_1 : base_offset), horizon_end, (_e13 ? base_offset : crossing_offset_1), _e55);
-            sum_2.sum = (_e51 - _e56);
+            float3 horizon_start = (_e14 ? _e39 : base);
+            float3 horizon_end = (_e14 ? base : _e39);
+            float3 _e52 = sum_2.sum;
+            const float3 _e56 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
+            const float3 _e57 = ltc_edge_from(reference, horizon_start, (_e14 ? crossing_offset_1 : base_offset), horizon_end, (_e14 ? base_offset : crossing_offset_1), _e56);
+            sum_2.sum = (_e52 - _e57);
         } else {
             sum_2.crossed = true;
-            sum_2.crossing = _e38;
+            sum_2.crossing = _e39;
             sum_2.crossing_offset = crossing_offset_1;
         }
-        start = (_e13 ? _e8 : _e38);
-        start_offset = (_e13 ? _e10 : crossing_offset_1);
-        end = (_e13 ? _e38 : _e9);
-        end_offset = (_e13 ? crossing_offset_1 : _e11);
+        start = (_e14 ? _e8 : _e39);
+        start_offset = (_e14 ? _e10 : crossing_offset_1);
+        end = (_e14 ? _e39 : _e9);
+        end_offset = (_e14 ? crossing_offset_1 : _e11);
     }
-    float3 _e67 = sum_2.sum;
-    float3 _e68 = start;
-    float3 _e69 = start_offset;
-    float3 _e70 = end;
-    float3 _e71 = end_offset;
-    const float3 _e72 = ltc_edge_from(reference, _e68, _e69, _e70, _e71, _e12);
-    sum_2.sum = (_e67 - _e72);
+    float3 _e68 = sum_2.sum;
+    float3 _e69 = start;
+    float3 _e70 = start_offset;
+    float3 _e71 = end;
+    float3 _e72 = end_offset;
+    const float3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
+    sum_2.sum = (_e68 - _e73);
     return;
 }
 #endif
@@ -1719,7 +1730,7 @@ LtcPolygon ltc_polygon_begin(LtcSurface surface, float3 corner)
 
 #if LTC_POLYGON
 // Adds the next vertex.
-void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_10, float3 corner)
+void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_11, float3 corner)
 {
     LtcOutline outline_5 = (LtcOutline)0;
     LtcOutlineLobe sum = (LtcOutlineLobe)0;
@@ -1732,7 +1743,7 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_
 #if LTC_GGX
     if (ltc_use_ggx) {
         LtcOutline _e11 = outline_5;
-        ltc_outline_lobe_add(sum, _e11, lobe_10);
+        ltc_outline_lobe_add(sum, _e11, lobe_11);
     }
 #endif
     LtcOutline _e13 = outline_5;
@@ -1745,12 +1756,12 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_
 
 #if LTC_POLYGON
 // The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
-float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_11, bool two_sided)
+float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_12, bool two_sided)
 {
     float3 toward = (0.0).xxx;
 
     float3 first_2 = polygon.outline.first;
-    ltc_polygon_add(polygon, surface, lobe_11, first_2);
+    ltc_polygon_add(polygon, surface, lobe_12, first_2);
     LtcOutline _e8 = polygon.outline;
     const float _e9 = ltc_outline_diffuse(_e8, two_sided);
 #if LTC_GGX
@@ -1762,7 +1773,7 @@ float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lob
     }
 #endif
     float3 _e19 = toward;
-    const float3 _e20 = ltc_value(surface, lobe_11, _e9, _e19);
+    const float3 _e20 = ltc_value(surface, lobe_12, _e9, _e19);
     return _e20;
 }
 #endif
@@ -1907,10 +1918,12 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_2, float3 end_2, float r
         tube.start_weight = _e190.w;
         tube.end_cap = _e192.xyz;
         tube.end_weight = _e192.w;
+        float _e202 = tube.share;
+        tube.share = (_e202 * max((1.0 - (turned * turned)), 0.0));
     }
 #endif
-    LtcTube _e201 = tube;
-    const LtcTube ltctube = _e201;
+    LtcTube _e209 = tube;
+    const LtcTube ltctube = _e209;
     return ltctube;
 }
 #endif
@@ -2132,7 +2145,7 @@ LtcLookup ltc_lookup(float3 toward, float3 rise, float3 normal_u, float3 normal_
     float cosine = (abs(facing) * rsqrt(max(dot(normal, normal), LTC_TINY)));
     float lean = ((LTC_LOOKUP_TILT * (1.0 - rise.z)) + (LTC_LOOKUP_EDGE_ON * (1.0 - cosine)));
     float blur = (0.9409 * max((1.0 - lean), 0.05));
-    float aspect = (texels.x / texels.y);
+    float aspect = (max(texels.x, 1.0) / max(texels.y, 1.0));
     float x_4 = ((blur * moment.x) * aspect);
     float y = (blur * moment.y);
     float z = ((blur * moment.z) / aspect);
@@ -2140,9 +2153,9 @@ LtcLookup ltc_lookup(float3 toward, float3 rise, float3 normal_u, float3 normal_
     float square = ((difference * difference) + (y * y));
     float turn = (square * rsqrt(max(square, LTC_TINY)));
     float longer = ((0.5 * (x_4 + z)) + turn);
-    const float _e170 = ltc_outlined(longer);
-    const float _e176 = ltc_outlined((((blur * blur) * area) / max(longer, LTC_TINY)));
-    float2 sides = float2(_e170, _e176);
+    const float _e174 = ltc_outlined(longer);
+    const float _e180 = ltc_outlined((((blur * blur) * area) / max(longer, LTC_TINY)));
+    float2 sides = float2(_e174, _e180);
     float sides_product = (sides.x * sides.y);
     float single = (sides_product * rsqrt(max(sides_product, LTC_TINY)));
     float variance = (pair ? max(sides.y, (LTC_LOOKUP_PAIR_SHARE * sides.x)) : single);
@@ -2155,8 +2168,8 @@ LtcLookup ltc_lookup(float3 toward, float3 rise, float3 normal_u, float3 normal_
     lookup.place = clamp(((0.5).xx + ((middle - (0.5).xx) * push)), (0.0).xx, (1.0).xx);
     lookup.apart = (reach * float2((axis.x / stretch), (axis.y * stretch)));
     lookup.level = level;
-    LtcLookup _e261 = lookup;
-    const LtcLookup ltclookup = _e261;
+    LtcLookup _e265 = lookup;
+    const LtcLookup ltclookup = _e265;
     return ltclookup;
 }
 #endif
@@ -2432,7 +2445,7 @@ LtcCut ltc_cut(float3 normal_9, float3 half_x, float3 half_y, float size, float3
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
-// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
+// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `absolute`, all
 // of whose roots are real.
 float ltc_cone_step(float x, float quadratic, float linear_, float absolute)
 {

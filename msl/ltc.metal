@@ -610,7 +610,7 @@ metal::float3 ltc_direction(
     metal::float3 v
 ) {
     float _e1 = ltc_extent(v);
-    metal::float3 scaled = v * (1.0 / metal::max(_e1, LTC_TINY));
+    metal::float3 scaled = v * (1.0 / metal::clamp(_e1, LTC_TINY, 80000000000000000000000000000000000000.0));
     return scaled * metal::rsqrt(metal::max(metal::dot(scaled, scaled), LTC_TINY));
 }
 
@@ -1022,9 +1022,19 @@ metal::float3 ltc_far_offset(
 // Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
 // as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
 bool ltc_is_above(
-    metal::float3 v
+    metal::float3 v,
+    float tolerance
 ) {
-    return (v.z > 0.0) | ((v.z * v.z) < (0.000000000001 * metal::dot(v, v)));
+    return (v.z > 0.0) | ((v.z * v.z) < (tolerance * metal::dot(v, v)));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
+float ltc_above_tolerance(
+    LtcLobe lobe
+) {
+    return 0.000000000001 * metal::min(metal::dot(lobe.axis_z, lobe.axis_z), 1.0);
 }
 #endif
 
@@ -1097,7 +1107,8 @@ float ltc_cap_above(
 #if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 // horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
+// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ, and
+// `tolerance` is that of ltc_is_above.
 metal::float3 ltc_pentagon(
     metal::float3 a,
     metal::float3 b,
@@ -1109,15 +1120,16 @@ metal::float3 ltc_pentagon(
     metal::float3 c_normal,
     metal::float3 d_normal,
     metal::float3 e_normal,
-    bool five
+    bool five,
+    float tolerance
 ) {
     metal::float3 edges = {};
-    bool _e11 = ltc_is_above(a);
-    bool _e12 = ltc_is_above(b);
-    bool _e13 = ltc_is_above(c);
-    bool _e14 = ltc_is_above(d);
-    bool _e15 = ltc_is_above(e);
-    if (!(((((_e11 | _e12) | _e13) | _e14) | _e15))) {
+    bool _e12 = ltc_is_above(a, tolerance);
+    bool _e13 = ltc_is_above(b, tolerance);
+    bool _e14 = ltc_is_above(c, tolerance);
+    bool _e15 = ltc_is_above(d, tolerance);
+    bool _e16 = ltc_is_above(e, tolerance);
+    if (!(((((_e12 | _e13) | _e14) | _e15) | _e16))) {
         return metal::float3(0.0);
     }
     float a_inverse = metal::rsqrt(metal::max(metal::dot(a, a), LTC_TINY));
@@ -1130,56 +1142,56 @@ metal::float3 ltc_pentagon(
     metal::float3 c_unit = c * c_inverse;
     metal::float3 d_unit = d * d_inverse;
     metal::float3 e_unit = e * e_inverse;
-    if ((((_e11 & _e12) & _e13) & _e14) & _e15) {
-        metal::float3 _e53 = ltc_edge(a_unit, b_unit, a_normal, a_inverse * b_inverse);
-        metal::float3 _e55 = ltc_edge(b_unit, c_unit, b_normal, b_inverse * c_inverse);
-        metal::float3 _e58 = ltc_edge(c_unit, d_unit, c_normal, c_inverse * d_inverse);
-        metal::float3 _e61 = ltc_edge(e_unit, a_unit, e_normal, e_inverse * a_inverse);
-        edges = ((_e53 + _e55) + _e58) + _e61;
+    if ((((_e12 & _e13) & _e14) & _e15) & _e16) {
+        metal::float3 _e54 = ltc_edge(a_unit, b_unit, a_normal, a_inverse * b_inverse);
+        metal::float3 _e56 = ltc_edge(b_unit, c_unit, b_normal, b_inverse * c_inverse);
+        metal::float3 _e59 = ltc_edge(c_unit, d_unit, c_normal, c_inverse * d_inverse);
+        metal::float3 _e62 = ltc_edge(e_unit, a_unit, e_normal, e_inverse * a_inverse);
+        edges = ((_e54 + _e56) + _e59) + _e62;
         if (five) {
-            metal::float3 _e64 = edges;
-            metal::float3 _e66 = ltc_edge(d_unit, e_unit, d_normal, d_inverse * e_inverse);
-            edges = _e64 + _e66;
+            metal::float3 _e65 = edges;
+            metal::float3 _e67 = ltc_edge(d_unit, e_unit, d_normal, d_inverse * e_inverse);
+            edges = _e65 + _e67;
         }
-        metal::float3 _e68 = edges;
-        return -(_e68);
+        metal::float3 _e69 = edges;
+        return -(_e69);
     }
-    bool leave_b = _e12 & !(_e13);
-    bool leave_c = _e13 & !(_e14);
-    bool leave_d = _e14 & !(_e15);
-    bool leave_e = _e15 & !(_e11);
+    bool leave_b = _e13 & !(_e14);
+    bool leave_c = _e14 & !(_e15);
+    bool leave_d = _e15 & !(_e16);
+    bool leave_e = _e16 & !(_e12);
     metal::float3 leave_from = leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a)));
     metal::float3 leave_to = leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b)));
     metal::float3 leave_normal = leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal)));
-    bool enter_b = _e12 & !(_e11);
-    bool enter_c = _e13 & !(_e12);
-    bool enter_d = _e14 & !(_e13);
-    bool enter_e = _e15 & !(_e14);
+    bool enter_b = _e13 & !(_e12);
+    bool enter_c = _e14 & !(_e13);
+    bool enter_d = _e15 & !(_e14);
+    bool enter_e = _e16 & !(_e15);
     metal::float3 enter_to = enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a)));
     metal::float3 enter_from = enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e)));
     metal::float3 enter_normal = enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal)));
-    metal::float3 _e110 = ltc_crossing(leave_from, leave_to, leave_normal);
-    metal::float3 _e112 = ltc_crossing(enter_to, enter_from, -(enter_normal));
-    metal::float3 leave = _e110 * metal::rsqrt(metal::max(metal::dot(_e110, _e110), LTC_TINY));
-    metal::float3 enter = _e112 * metal::rsqrt(metal::max(metal::dot(_e112, _e112), LTC_TINY));
-    metal::float3 a_end = _e11 ? a_unit : (_e15 ? leave : enter);
-    metal::float3 b_end = _e12 ? b_unit : (_e11 ? leave : enter);
-    metal::float3 c_end = _e13 ? c_unit : (_e12 ? leave : enter);
-    metal::float3 d_end = _e14 ? d_unit : (_e13 ? leave : enter);
-    metal::float3 e_end = _e15 ? e_unit : (_e14 ? leave : enter);
-    metal::float3 a_start = _e11 ? a_unit : enter;
-    metal::float3 b_start = _e12 ? b_unit : enter;
-    metal::float3 c_start = _e13 ? c_unit : enter;
-    metal::float3 d_start = _e14 ? d_unit : enter;
-    metal::float3 e_start = _e15 ? e_unit : enter;
-    metal::float3 _e139 = ltc_edge_normal(_e110, _e112, _e112 - _e110);
-    metal::float3 _e140 = ltc_edge_part(leave, enter, _e139);
-    metal::float3 _e141 = ltc_edge_part(a_start, b_end, a_normal);
-    metal::float3 _e142 = ltc_edge_part(b_start, c_end, b_normal);
-    metal::float3 _e144 = ltc_edge_part(c_start, d_end, c_normal);
-    metal::float3 _e146 = ltc_edge_part(d_start, e_end, d_normal);
-    metal::float3 _e148 = ltc_edge_part(e_start, a_end, e_normal);
-    return -((((((_e141 + _e142) + _e144) + _e146) + _e148) + _e140));
+    metal::float3 _e111 = ltc_crossing(leave_from, leave_to, leave_normal);
+    metal::float3 _e113 = ltc_crossing(enter_to, enter_from, -(enter_normal));
+    metal::float3 leave = _e111 * metal::rsqrt(metal::max(metal::dot(_e111, _e111), LTC_TINY));
+    metal::float3 enter = _e113 * metal::rsqrt(metal::max(metal::dot(_e113, _e113), LTC_TINY));
+    metal::float3 a_end = _e12 ? a_unit : (_e16 ? leave : enter);
+    metal::float3 b_end = _e13 ? b_unit : (_e12 ? leave : enter);
+    metal::float3 c_end = _e14 ? c_unit : (_e13 ? leave : enter);
+    metal::float3 d_end = _e15 ? d_unit : (_e14 ? leave : enter);
+    metal::float3 e_end = _e16 ? e_unit : (_e15 ? leave : enter);
+    metal::float3 a_start = _e12 ? a_unit : enter;
+    metal::float3 b_start = _e13 ? b_unit : enter;
+    metal::float3 c_start = _e14 ? c_unit : enter;
+    metal::float3 d_start = _e15 ? d_unit : enter;
+    metal::float3 e_start = _e16 ? e_unit : enter;
+    metal::float3 _e140 = ltc_edge_normal(_e111, _e113, _e113 - _e111);
+    metal::float3 _e141 = ltc_edge_part(leave, enter, _e140);
+    metal::float3 _e142 = ltc_edge_part(a_start, b_end, a_normal);
+    metal::float3 _e143 = ltc_edge_part(b_start, c_end, b_normal);
+    metal::float3 _e145 = ltc_edge_part(c_start, d_end, c_normal);
+    metal::float3 _e147 = ltc_edge_part(d_start, e_end, d_normal);
+    metal::float3 _e149 = ltc_edge_part(e_start, a_end, e_normal);
+    return -((((((_e142 + _e143) + _e145) + _e147) + _e149) + _e141));
 }
 #endif
 
@@ -1508,12 +1520,13 @@ metal::float3 ltc_quad_lobe(
         metal::float3 _e113 = ltc_transform_normal(lobe, quad_4.c_normal);
         metal::float3 _e115 = ltc_transform_normal(lobe, quad_4.d_normal);
         metal::float3 _e117 = ltc_transform_normal(lobe, quad_4.e_normal);
-        metal::float3 _e119 = ltc_pentagon(_e17 + _e7, _e17 + _e9, _e17 + _e11, _e17 + _e13, _e17 + _e15, _e109, _e111, _e113, _e115, _e117, quad_4.clipped);
-        sum = _e119;
+        float _e119 = ltc_above_tolerance(lobe);
+        metal::float3 _e120 = ltc_pentagon(_e17 + _e7, _e17 + _e9, _e17 + _e11, _e17 + _e13, _e17 + _e15, _e109, _e111, _e113, _e115, _e117, quad_4.clipped, _e119);
+        sum = _e120;
     }
-    metal::float3 _e120 = sum;
-    metal::float3 _e125 = ltc_received_vector(_e120 * LTC_OVER_TWO_PI, quad_4.front, quad_4.two_sided);
-    return _e125;
+    metal::float3 _e121 = sum;
+    metal::float3 _e126 = ltc_received_vector(_e121 * LTC_OVER_TWO_PI, quad_4.front, quad_4.two_sided);
+    return _e126;
 }
 #endif
 
@@ -1743,50 +1756,51 @@ void ltc_outline_lobe_edge(
     metal::float3 _e10 = ltc_transform(lobe, a_offset);
     metal::float3 _e11 = ltc_transform(lobe, b_offset);
     metal::float3 _e12 = ltc_transform_normal(lobe, normal);
-    bool _e13 = ltc_is_above(_e8);
-    bool _e14 = ltc_is_above(_e9);
-    if (!((_e13 | _e14))) {
+    float _e13 = ltc_above_tolerance(lobe);
+    bool _e14 = ltc_is_above(_e8, _e13);
+    bool _e15 = ltc_is_above(_e9, _e13);
+    if (!((_e14 | _e15))) {
         return;
     }
     start = _e8;
     start_offset = _e10;
     end = _e9;
     end_offset = _e11;
-    if (!((_e13 & _e14))) {
-        metal::float3 above = _e13 ? _e8 : _e9;
-        metal::float3 below = _e13 ? _e9 : _e8;
-        metal::float3 above_offset = _e13 ? _e10 : _e11;
-        metal::float3 below_offset = _e13 ? _e11 : _e10;
+    if (!((_e14 & _e15))) {
+        metal::float3 above = _e14 ? _e8 : _e9;
+        metal::float3 below = _e14 ? _e9 : _e8;
+        metal::float3 above_offset = _e14 ? _e10 : _e11;
+        metal::float3 below_offset = _e14 ? _e11 : _e10;
         float t = metal::max(above.z, 0.0) / metal::max(above.z - below.z, LTC_TINY);
-        metal::float3 _e38 = ltc_crossing(above, below, _e13 ? _e12 : -(_e12));
+        metal::float3 _e39 = ltc_crossing(above, below, _e14 ? _e12 : -(_e12));
         metal::float3 crossing_offset_1 = above_offset + ((below_offset - above_offset) * t);
-        bool _e43 = sum_2.crossed;
-        if (_e43) {
+        bool _e44 = sum_2.crossed;
+        if (_e44) {
             metal::float3 base = sum_2.crossing;
             metal::float3 base_offset = sum_2.crossing_offset;
-            metal::float3 horizon_start = _e13 ? _e38 : base;
-            metal::float3 horizon_end = _e13 ? base : _e38;
-            metal::float3 _e51 = sum_2.sum;
-            metal::float3 _e55 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
-            metal::float3 _e56 = ltc_edge_from(reference, horizon_start, _e13 ? crossing_offset_1 : base_offset, horizon_end, _e13 ? base_offset : crossing_offset_1, _e55);
-            sum_2.sum = _e51 - _e56;
+            metal::float3 horizon_start = _e14 ? _e39 : base;
+            metal::float3 horizon_end = _e14 ? base : _e39;
+            metal::float3 _e52 = sum_2.sum;
+            metal::float3 _e56 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
+            metal::float3 _e57 = ltc_edge_from(reference, horizon_start, _e14 ? crossing_offset_1 : base_offset, horizon_end, _e14 ? base_offset : crossing_offset_1, _e56);
+            sum_2.sum = _e52 - _e57;
         } else {
             sum_2.crossed = true;
-            sum_2.crossing = _e38;
+            sum_2.crossing = _e39;
             sum_2.crossing_offset = crossing_offset_1;
         }
-        start = _e13 ? _e8 : _e38;
-        start_offset = _e13 ? _e10 : crossing_offset_1;
-        end = _e13 ? _e38 : _e9;
-        end_offset = _e13 ? crossing_offset_1 : _e11;
+        start = _e14 ? _e8 : _e39;
+        start_offset = _e14 ? _e10 : crossing_offset_1;
+        end = _e14 ? _e39 : _e9;
+        end_offset = _e14 ? crossing_offset_1 : _e11;
     }
-    metal::float3 _e67 = sum_2.sum;
-    metal::float3 _e68 = start;
-    metal::float3 _e69 = start_offset;
-    metal::float3 _e70 = end;
-    metal::float3 _e71 = end_offset;
-    metal::float3 _e72 = ltc_edge_from(reference, _e68, _e69, _e70, _e71, _e12);
-    sum_2.sum = _e67 - _e72;
+    metal::float3 _e68 = sum_2.sum;
+    metal::float3 _e69 = start;
+    metal::float3 _e70 = start_offset;
+    metal::float3 _e71 = end;
+    metal::float3 _e72 = end_offset;
+    metal::float3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
+    sum_2.sum = _e68 - _e73;
     return;
 }
 #endif
@@ -1855,7 +1869,7 @@ LtcPolygon ltc_polygon_begin(
 void ltc_polygon_add(
     thread LtcPolygon& polygon,
     LtcSurface surface,
-    LtcLobe lobe_10,
+    LtcLobe lobe_11,
     metal::float3 corner
 ) {
     LtcOutline outline_5 = {};
@@ -1868,7 +1882,7 @@ void ltc_polygon_add(
 #if LTC_GGX
     if (ltc_use_ggx) {
         LtcOutline _e11 = outline_5;
-        ltc_outline_lobe_add(sum, _e11, lobe_10);
+        ltc_outline_lobe_add(sum, _e11, lobe_11);
     }
 #endif
     LtcOutline _e13 = outline_5;
@@ -1884,12 +1898,12 @@ void ltc_polygon_add(
 metal::float3 ltc_polygon_end(
     thread LtcPolygon& polygon,
     LtcSurface surface,
-    LtcLobe lobe_11,
+    LtcLobe lobe_12,
     bool two_sided
 ) {
     metal::float3 toward = metal::float3(0.0);
     metal::float3 first_2 = polygon.outline.first;
-    ltc_polygon_add(polygon, surface, lobe_11, first_2);
+    ltc_polygon_add(polygon, surface, lobe_12, first_2);
     LtcOutline _e8 = polygon.outline;
     float _e9 = ltc_outline_diffuse(_e8, two_sided);
 #if LTC_GGX
@@ -1901,7 +1915,7 @@ metal::float3 ltc_polygon_end(
     }
 #endif
     metal::float3 _e19 = toward;
-    metal::float3 _e20 = ltc_value(surface, lobe_11, _e9, _e19);
+    metal::float3 _e20 = ltc_value(surface, lobe_12, _e9, _e19);
     return _e20;
 }
 #endif
@@ -2065,10 +2079,12 @@ LtcTube ltc_tube_begin(
         tube.start_weight = _e190.w;
         tube.end_cap = _e192.xyz;
         tube.end_weight = _e192.w;
+        float _e202 = tube.share;
+        tube.share = _e202 * metal::max(1.0 - (turned * turned), 0.0);
     }
 #endif
-    LtcTube _e201 = tube;
-    return _e201;
+    LtcTube _e209 = tube;
+    return _e209;
 }
 #endif
 
@@ -2311,7 +2327,7 @@ LtcLookup ltc_lookup(
     float cosine = metal::abs(facing) * metal::rsqrt(metal::max(metal::dot(normal, normal), LTC_TINY));
     float lean = (LTC_LOOKUP_TILT * (1.0 - rise.z)) + (LTC_LOOKUP_EDGE_ON * (1.0 - cosine));
     float blur = 0.9409 * metal::max(1.0 - lean, 0.05);
-    float aspect = texels.x / texels.y;
+    float aspect = metal::max(texels.x, 1.0) / metal::max(texels.y, 1.0);
     float x_4 = (blur * moment.x) * aspect;
     float y = blur * moment.y;
     float z = (blur * moment.z) / aspect;
@@ -2319,9 +2335,9 @@ LtcLookup ltc_lookup(
     float square = (difference * difference) + (y * y);
     float turn = square * metal::rsqrt(metal::max(square, LTC_TINY));
     float longer = (0.5 * (x_4 + z)) + turn;
-    float _e170 = ltc_outlined(longer);
-    float _e176 = ltc_outlined(((blur * blur) * area) / metal::max(longer, LTC_TINY));
-    metal::float2 sides = metal::float2(_e170, _e176);
+    float _e174 = ltc_outlined(longer);
+    float _e180 = ltc_outlined(((blur * blur) * area) / metal::max(longer, LTC_TINY));
+    metal::float2 sides = metal::float2(_e174, _e180);
     float sides_product = sides.x * sides.y;
     float single = sides_product * metal::rsqrt(metal::max(sides_product, LTC_TINY));
     float variance = pair ? metal::max(sides.y, LTC_LOOKUP_PAIR_SHARE * sides.x) : single;
@@ -2334,8 +2350,8 @@ LtcLookup ltc_lookup(
     lookup.place = metal::clamp(metal::float2(0.5) + ((middle - metal::float2(0.5)) * push), metal::float2(0.0), metal::float2(1.0));
     lookup.apart = reach * metal::float2(axis.x / stretch, axis.y * stretch);
     lookup.level = level;
-    LtcLookup _e261 = lookup;
-    return _e261;
+    LtcLookup _e265 = lookup;
+    return _e265;
 }
 #endif
 
@@ -2663,7 +2679,7 @@ LtcCut ltc_cut(
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
-// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
+// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `absolute`, all
 // of whose roots are real.
 float ltc_cone_step(
     float x,

@@ -369,3 +369,21 @@ fn a_tube_of_no_length_or_width_is_dark_but_for_its_caps() {
         assert!((sphere - exact).abs() < bound, "{sphere} and {exact}: {start:?} {radius}");
     }
 }
+
+/// Seen along its axis a capsule shows one cap and nothing else; its side is hidden behind that.
+#[test]
+fn a_capsule_that_points_at_the_surface_shows_one_cap() {
+    let view = DVec3::new(0.6, 0.0, 0.8);
+    for ratio in [1.0 / 8.0, 1.0 / 16.0, 1.0 / 32.0, 1.0 / 100.0] {
+        for degrees in [0.0_f64, 0.5, 2.0, 5.0, 20.0, 45.0, 70.0] {
+            let (sine, cosine) = degrees.to_radians().sin_cos();
+            let start = DVec3::new(0.2, 0.1, 1.0).normalize();
+            let aside = start.any_orthonormal_vector();
+            let end = start + (start * cosine + aside * sine) * 0.7;
+            let tube = Tube { start, end, radius: ratio, caps: true };
+            let (value, exact) = (tube.diffuse(), tube.truth(&Lambert, view, 1e-8).diffuse);
+            let error = (value / exact - 1.0).abs();
+            assert!(error < 0.012, "{value} and {exact} at {degrees} degrees: {tube:?}");
+        }
+    }
+}

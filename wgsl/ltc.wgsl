@@ -150,7 +150,8 @@ fn ltc_extent(v: vec3<f32>) -> f32 {
 /// `v` over its length, whatever that is: neither huge nor tiny vectors lose their direction.
 /// Zero for a zero vector.
 fn ltc_direction(v: vec3<f32>) -> vec3<f32> {
-    let scaled = v * (1.0 / max(ltc_extent(v), LTC_TINY));
+    // The reciprocal of anything larger would be subnormal, which a device may take for zero.
+    let scaled = v * (1.0 / clamp(ltc_extent(v), LTC_TINY, 8e37));
     return scaled * inverseSqrt(max(dot(scaled, scaled), LTC_TINY));
 }
 
@@ -417,8 +418,13 @@ fn ltc_far_offset(origin: vec3<f32>, reference: vec3<f32>, offset: vec3<f32>) ->
 
 /// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
 /// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
-fn ltc_is_above(v: vec3<f32>) -> bool {
-    return (v.z > 0.0) | (v.z * v.z < 1e-12 * dot(v, v));
+fn ltc_is_above(v: vec3<f32>, tolerance: f32) -> bool {
+    return (v.z > 0.0) | (v.z * v.z < tolerance * dot(v, v));
+}
+
+/// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
+fn ltc_above_tolerance(lobe: LtcLobe) -> f32 {
+    return 1e-12 * min(dot(lobe.axis_z, lobe.axis_z), 1.0);
 }
 
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
@@ -477,13 +483,14 @@ fn ltc_cap_above(form_factor: vec3<f32>, normal: vec3<f32>) -> f32 {
 
 /// Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 /// horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-/// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
-fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>, five: bool) -> vec3<f32> {
-    let a_up = ltc_is_above(a);
-    let b_up = ltc_is_above(b);
-    let c_up = ltc_is_above(c);
-    let d_up = ltc_is_above(d);
-    let e_up = ltc_is_above(e);
+/// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ, and
+/// `tolerance` is that of ltc_is_above.
+fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>, five: bool, tolerance: f32) -> vec3<f32> {
+    let a_up = ltc_is_above(a, tolerance);
+    let b_up = ltc_is_above(b, tolerance);
+    let c_up = ltc_is_above(c, tolerance);
+    let d_up = ltc_is_above(d, tolerance);
+    let e_up = ltc_is_above(e, tolerance);
     if (!(a_up | b_up | c_up | d_up | e_up)) {
         return vec3<f32>(0.0);
     }
@@ -788,7 +795,7 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
     } else {
         sum = ltc_pentagon(base + a, base + b, base + c, base + d, base + e, ltc_transform_normal(lobe, quad.a_normal),
             ltc_transform_normal(lobe, quad.b_normal), ltc_transform_normal(lobe, quad.c_normal),
-            ltc_transform_normal(lobe, quad.d_normal), ltc_transform_normal(lobe, quad.e_normal), quad.clipped);
+            ltc_transform_normal(lobe, quad.d_normal), ltc_transform_normal(lobe, quad.e_normal), quad.clipped, ltc_above_tolerance(lobe));
     }
     return ltc_received_vector(sum * LTC_OVER_TWO_PI, quad.front, quad.two_sided);
 }
@@ -1028,8 +1035,9 @@ fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, refe
     let m_a_offset = ltc_transform(lobe, a_offset);
     let m_b_offset = ltc_transform(lobe, b_offset);
     let m_normal = ltc_transform_normal(lobe, normal);
-    let a_up = ltc_is_above(m_a);
-    let b_up = ltc_is_above(m_b);
+    let tolerance = ltc_above_tolerance(lobe);
+    let a_up = ltc_is_above(m_a, tolerance);
+    let b_up = ltc_is_above(m_b, tolerance);
     if (!(a_up | b_up)) {
         return;
     }
@@ -1295,6 +1303,8 @@ fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius:
         tube.start_weight = start_cap.w;
         tube.end_cap = end_cap.xyz;
         tube.end_weight = end_cap.w;
+        // Seen along its axis a capsule shows one cap, and its side lies behind it.
+        tube.share *= max(1.0 - turned * turned, 0.0);
     }
     return tube;
 }
@@ -1553,7 +1563,7 @@ fn ltc_lookup(toward: vec3<f32>, rise: vec3<f32>, normal_u: vec3<f32>, normal_v:
     let cosine = abs(facing) * inverseSqrt(max(dot(normal, normal), LTC_TINY));
     let lean = LTC_LOOKUP_TILT * (1.0 - rise.z) + LTC_LOOKUP_EDGE_ON * (1.0 - cosine);
     let blur = LTC_LOOKUP_BLUR * LTC_LOOKUP_BLUR * max(1.0 - lean, 0.05);
-    let aspect = texels.x / texels.y;
+    let aspect = max(texels.x, 1.0) / max(texels.y, 1.0);
     let x = blur * moment.x * aspect;
     let y = blur * moment.y;
     let z = blur * moment.z / aspect;
@@ -1867,7 +1877,7 @@ fn ltc_cut(normal: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, size: f32, c
     return cut;
 }
 
-/// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
+/// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `absolute`, all
 /// of whose roots are real.
 fn ltc_cone_step(x: f32, quadratic: f32, linear: f32, absolute: f32) -> f32 {
     let value = ((x + quadratic) * x + linear) * x + absolute;

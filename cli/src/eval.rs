@@ -309,9 +309,15 @@ fn by_truth(case: &Case) -> Values {
     let (tangent, bitangent) = normal.any_orthonormal_pair();
     let place = |v: DVec3| DVec3::new(v.dot(tangent), v.dot(bitangent), v.dot(normal));
     let mut view = place(normalized(case.view));
-    // As for the include, a view on or below the horizon counts as a grazing one.
-    view.z = view.z.max(1e-4);
-    let view = view.normalize();
+    // As for the include, a view on or below the horizon counts as a grazing one of the same azimuth.
+    if view.z < 1e-4 {
+        let along = if view.truncate().length() > 1e-6 {
+            view
+        } else {
+            place(ltc_surface::<f64>(case.position, normal, case.view, case.roughness).tangent)
+        };
+        view = (along.truncate().normalize() * (1.0_f64 - 1e-8).sqrt()).extend(1e-4);
+    }
     let light = case.light.moved(|point| place(point - case.position), place);
     let alpha = case.roughness.max(LTC_ROUGHNESS_FLOOR).powi(2);
     if let (Some(picture), Light::Polygon { points, two_sided }) = (&case.picture, &light) {

@@ -27,7 +27,7 @@ pub struct BuildArguments {
     /// What the shaders can do, such as quad,disk+ggx,clearcoat+two-sided: the package then holds that part of the
     /// include, and a table with the layers that it needs. `softbox select --list` names all effects.
     #[arg(long, value_name = "SET", conflicts_with = "update")]
-    effects: Option<Effects>,
+    effects: Option<String>,
     /// A scene file: the package holds what it calls for.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "update"])]
     scene: Option<PathBuf>,
@@ -42,7 +42,7 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     let family = arguments.model.family()?;
     let effects = match &arguments.scene {
         Some(scene) => Some(Scene::load(scene)?.effects()),
-        None => arguments.effects,
+        None => arguments.effects.as_deref().map(str::parse::<Effects>).transpose()?,
     };
     let contents = Contents { table_size: arguments.table_size, effects, ..Contents::default() };
     let bar = progress::bar("Building");

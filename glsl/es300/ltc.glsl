@@ -604,7 +604,7 @@ float ltc_extent(vec3 v) {
 // Zero for a zero vector.
 vec3 ltc_direction(vec3 v) {
     float _e1 = ltc_extent(v);
-    vec3 scaled = (v * (1.0 / max(_e1, LTC_TINY)));
+    vec3 scaled = (v * (1.0 / clamp(_e1, LTC_TINY, 8e37)));
     return (scaled * inversesqrt(max(dot(scaled, scaled), LTC_TINY)));
 }
 
@@ -918,8 +918,15 @@ vec3 ltc_far_offset(vec3 origin, vec3 reference, vec3 offset) {
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
 // as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
-bool ltc_is_above(vec3 v) {
-    return ((v.z > 0.0) || ((v.z * v.z) < (1e-12 * dot(v, v))));
+bool ltc_is_above(vec3 v, float tolerance) {
+    return ((v.z > 0.0) || ((v.z * v.z) < (tolerance * dot(v, v))));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
+float ltc_above_tolerance(LtcLobe lobe) {
+    return (1e-12 * min(dot(lobe.axis_z, lobe.axis_z), 1.0));
 }
 #endif
 
@@ -980,15 +987,16 @@ float ltc_cap_above(vec3 form_factor, vec3 normal) {
 #if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 // horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ.
-vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_normal, vec3 c_normal, vec3 d_normal, vec3 e_normal, bool five) {
+// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ, and
+// `tolerance` is that of ltc_is_above.
+vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_normal, vec3 c_normal, vec3 d_normal, vec3 e_normal, bool five, float tolerance) {
     vec3 edges = vec3(0.0);
-    bool _e11 = ltc_is_above(a);
-    bool _e12 = ltc_is_above(b);
-    bool _e13 = ltc_is_above(c);
-    bool _e14 = ltc_is_above(d);
-    bool _e15 = ltc_is_above(e);
-    if (!(((((_e11 || _e12) || _e13) || _e14) || _e15))) {
+    bool _e12 = ltc_is_above(a, tolerance);
+    bool _e13 = ltc_is_above(b, tolerance);
+    bool _e14 = ltc_is_above(c, tolerance);
+    bool _e15 = ltc_is_above(d, tolerance);
+    bool _e16 = ltc_is_above(e, tolerance);
+    if (!(((((_e12 || _e13) || _e14) || _e15) || _e16))) {
         return vec3(0.0);
     }
     float a_inverse = inversesqrt(max(dot(a, a), LTC_TINY));
@@ -1001,56 +1009,56 @@ vec3 ltc_pentagon(vec3 a, vec3 b, vec3 c, vec3 d, vec3 e, vec3 a_normal, vec3 b_
     vec3 c_unit = (c * c_inverse);
     vec3 d_unit = (d * d_inverse);
     vec3 e_unit = (e * e_inverse);
-    if (((((_e11 && _e12) && _e13) && _e14) && _e15)) {
-        vec3 _e53 = ltc_edge(a_unit, b_unit, a_normal, (a_inverse * b_inverse));
-        vec3 _e55 = ltc_edge(b_unit, c_unit, b_normal, (b_inverse * c_inverse));
-        vec3 _e58 = ltc_edge(c_unit, d_unit, c_normal, (c_inverse * d_inverse));
-        vec3 _e61 = ltc_edge(e_unit, a_unit, e_normal, (e_inverse * a_inverse));
-        edges = (((_e53 + _e55) + _e58) + _e61);
+    if (((((_e12 && _e13) && _e14) && _e15) && _e16)) {
+        vec3 _e54 = ltc_edge(a_unit, b_unit, a_normal, (a_inverse * b_inverse));
+        vec3 _e56 = ltc_edge(b_unit, c_unit, b_normal, (b_inverse * c_inverse));
+        vec3 _e59 = ltc_edge(c_unit, d_unit, c_normal, (c_inverse * d_inverse));
+        vec3 _e62 = ltc_edge(e_unit, a_unit, e_normal, (e_inverse * a_inverse));
+        edges = (((_e54 + _e56) + _e59) + _e62);
         if (five) {
-            vec3 _e64 = edges;
-            vec3 _e66 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
-            edges = (_e64 + _e66);
+            vec3 _e65 = edges;
+            vec3 _e67 = ltc_edge(d_unit, e_unit, d_normal, (d_inverse * e_inverse));
+            edges = (_e65 + _e67);
         }
-        vec3 _e68 = edges;
-        return -(_e68);
+        vec3 _e69 = edges;
+        return -(_e69);
     }
-    bool leave_b = (_e12 && !(_e13));
-    bool leave_c = (_e13 && !(_e14));
-    bool leave_d = (_e14 && !(_e15));
-    bool leave_e = (_e15 && !(_e11));
+    bool leave_b = (_e13 && !(_e14));
+    bool leave_c = (_e14 && !(_e15));
+    bool leave_d = (_e15 && !(_e16));
+    bool leave_e = (_e16 && !(_e12));
     vec3 leave_from = (leave_e ? e : (leave_d ? d : (leave_c ? c : (leave_b ? b : a))));
     vec3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
     vec3 leave_normal = (leave_e ? e_normal : (leave_d ? d_normal : (leave_c ? c_normal : (leave_b ? b_normal : a_normal))));
-    bool enter_b = (_e12 && !(_e11));
-    bool enter_c = (_e13 && !(_e12));
-    bool enter_d = (_e14 && !(_e13));
-    bool enter_e = (_e15 && !(_e14));
+    bool enter_b = (_e13 && !(_e12));
+    bool enter_c = (_e14 && !(_e13));
+    bool enter_d = (_e15 && !(_e14));
+    bool enter_e = (_e16 && !(_e15));
     vec3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
     vec3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
     vec3 enter_normal = (enter_e ? d_normal : (enter_d ? c_normal : (enter_c ? b_normal : (enter_b ? a_normal : e_normal))));
-    vec3 _e110 = ltc_crossing(leave_from, leave_to, leave_normal);
-    vec3 _e112 = ltc_crossing(enter_to, enter_from, -(enter_normal));
-    vec3 leave = (_e110 * inversesqrt(max(dot(_e110, _e110), LTC_TINY)));
-    vec3 enter = (_e112 * inversesqrt(max(dot(_e112, _e112), LTC_TINY)));
-    vec3 a_end = (_e11 ? a_unit : (_e15 ? leave : enter));
-    vec3 b_end = (_e12 ? b_unit : (_e11 ? leave : enter));
-    vec3 c_end = (_e13 ? c_unit : (_e12 ? leave : enter));
-    vec3 d_end = (_e14 ? d_unit : (_e13 ? leave : enter));
-    vec3 e_end = (_e15 ? e_unit : (_e14 ? leave : enter));
-    vec3 a_start = (_e11 ? a_unit : enter);
-    vec3 b_start = (_e12 ? b_unit : enter);
-    vec3 c_start = (_e13 ? c_unit : enter);
-    vec3 d_start = (_e14 ? d_unit : enter);
-    vec3 e_start = (_e15 ? e_unit : enter);
-    vec3 _e139 = ltc_edge_normal(_e110, _e112, (_e112 - _e110));
-    vec3 _e140 = ltc_edge_part(leave, enter, _e139);
-    vec3 _e141 = ltc_edge_part(a_start, b_end, a_normal);
-    vec3 _e142 = ltc_edge_part(b_start, c_end, b_normal);
-    vec3 _e144 = ltc_edge_part(c_start, d_end, c_normal);
-    vec3 _e146 = ltc_edge_part(d_start, e_end, d_normal);
-    vec3 _e148 = ltc_edge_part(e_start, a_end, e_normal);
-    return -((((((_e141 + _e142) + _e144) + _e146) + _e148) + _e140));
+    vec3 _e111 = ltc_crossing(leave_from, leave_to, leave_normal);
+    vec3 _e113 = ltc_crossing(enter_to, enter_from, -(enter_normal));
+    vec3 leave = (_e111 * inversesqrt(max(dot(_e111, _e111), LTC_TINY)));
+    vec3 enter = (_e113 * inversesqrt(max(dot(_e113, _e113), LTC_TINY)));
+    vec3 a_end = (_e12 ? a_unit : (_e16 ? leave : enter));
+    vec3 b_end = (_e13 ? b_unit : (_e12 ? leave : enter));
+    vec3 c_end = (_e14 ? c_unit : (_e13 ? leave : enter));
+    vec3 d_end = (_e15 ? d_unit : (_e14 ? leave : enter));
+    vec3 e_end = (_e16 ? e_unit : (_e15 ? leave : enter));
+    vec3 a_start = (_e12 ? a_unit : enter);
+    vec3 b_start = (_e13 ? b_unit : enter);
+    vec3 c_start = (_e14 ? c_unit : enter);
+    vec3 d_start = (_e15 ? d_unit : enter);
+    vec3 e_start = (_e16 ? e_unit : enter);
+    vec3 _e140 = ltc_edge_normal(_e111, _e113, (_e113 - _e111));
+    vec3 _e141 = ltc_edge_part(leave, enter, _e140);
+    vec3 _e142 = ltc_edge_part(a_start, b_end, a_normal);
+    vec3 _e143 = ltc_edge_part(b_start, c_end, b_normal);
+    vec3 _e145 = ltc_edge_part(c_start, d_end, c_normal);
+    vec3 _e147 = ltc_edge_part(d_start, e_end, d_normal);
+    vec3 _e149 = ltc_edge_part(e_start, a_end, e_normal);
+    return -((((((_e142 + _e143) + _e145) + _e147) + _e149) + _e141));
 }
 #endif
 
@@ -1353,12 +1361,13 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
         vec3 _e113 = ltc_transform_normal(lobe, quad.c_normal);
         vec3 _e115 = ltc_transform_normal(lobe, quad.d_normal);
         vec3 _e117 = ltc_transform_normal(lobe, quad.e_normal);
-        vec3 _e119 = ltc_pentagon((_e17 + _e7), (_e17 + _e9), (_e17 + _e11), (_e17 + _e13), (_e17 + _e15), _e109, _e111, _e113, _e115, _e117, quad.clipped);
-        sum = _e119;
+        float _e119 = ltc_above_tolerance(lobe);
+        vec3 _e120 = ltc_pentagon((_e17 + _e7), (_e17 + _e9), (_e17 + _e11), (_e17 + _e13), (_e17 + _e15), _e109, _e111, _e113, _e115, _e117, quad.clipped, _e119);
+        sum = _e120;
     }
-    vec3 _e120 = sum;
-    vec3 _e125 = ltc_received_vector((_e120 * LTC_OVER_TWO_PI), quad.front, quad.two_sided);
-    return _e125;
+    vec3 _e121 = sum;
+    vec3 _e126 = ltc_received_vector((_e121 * LTC_OVER_TWO_PI), quad.front, quad.two_sided);
+    return _e126;
 }
 #endif
 
@@ -1556,50 +1565,51 @@ void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, vec3 refere
     vec3 _e10 = ltc_transform(lobe, a_offset);
     vec3 _e11 = ltc_transform(lobe, b_offset);
     vec3 _e12 = ltc_transform_normal(lobe, normal);
-    bool _e13 = ltc_is_above(_e8);
-    bool _e14 = ltc_is_above(_e9);
-    if (!((_e13 || _e14))) {
+    float _e13 = ltc_above_tolerance(lobe);
+    bool _e14 = ltc_is_above(_e8, _e13);
+    bool _e15 = ltc_is_above(_e9, _e13);
+    if (!((_e14 || _e15))) {
         return;
     }
     start = _e8;
     start_offset = _e10;
     end = _e9;
     end_offset = _e11;
-    if (!((_e13 && _e14))) {
-        vec3 above = (_e13 ? _e8 : _e9);
-        vec3 below = (_e13 ? _e9 : _e8);
-        vec3 above_offset = (_e13 ? _e10 : _e11);
-        vec3 below_offset = (_e13 ? _e11 : _e10);
+    if (!((_e14 && _e15))) {
+        vec3 above = (_e14 ? _e8 : _e9);
+        vec3 below = (_e14 ? _e9 : _e8);
+        vec3 above_offset = (_e14 ? _e10 : _e11);
+        vec3 below_offset = (_e14 ? _e11 : _e10);
         float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
-        vec3 _e38 = ltc_crossing(above, below, (_e13 ? _e12 : -(_e12)));
+        vec3 _e39 = ltc_crossing(above, below, (_e14 ? _e12 : -(_e12)));
         vec3 crossing_offset_1 = (above_offset + ((below_offset - above_offset) * t));
-        bool _e43 = sum_2.crossed;
-        if (_e43) {
+        bool _e44 = sum_2.crossed;
+        if (_e44) {
             vec3 base = sum_2.crossing;
             vec3 base_offset = sum_2.crossing_offset;
-            vec3 horizon_start = (_e13 ? _e38 : base);
-            vec3 horizon_end = (_e13 ? base : _e38);
-            vec3 _e51 = sum_2.sum;
-            vec3 _e55 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
-            vec3 _e56 = ltc_edge_from(reference, horizon_start, (_e13 ? crossing_offset_1 : base_offset), horizon_end, (_e13 ? base_offset : crossing_offset_1), _e55);
-            sum_2.sum = (_e51 - _e56);
+            vec3 horizon_start = (_e14 ? _e39 : base);
+            vec3 horizon_end = (_e14 ? base : _e39);
+            vec3 _e52 = sum_2.sum;
+            vec3 _e56 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
+            vec3 _e57 = ltc_edge_from(reference, horizon_start, (_e14 ? crossing_offset_1 : base_offset), horizon_end, (_e14 ? base_offset : crossing_offset_1), _e56);
+            sum_2.sum = (_e52 - _e57);
         } else {
             sum_2.crossed = true;
-            sum_2.crossing = _e38;
+            sum_2.crossing = _e39;
             sum_2.crossing_offset = crossing_offset_1;
         }
-        start = (_e13 ? _e8 : _e38);
-        start_offset = (_e13 ? _e10 : crossing_offset_1);
-        end = (_e13 ? _e38 : _e9);
-        end_offset = (_e13 ? crossing_offset_1 : _e11);
+        start = (_e14 ? _e8 : _e39);
+        start_offset = (_e14 ? _e10 : crossing_offset_1);
+        end = (_e14 ? _e39 : _e9);
+        end_offset = (_e14 ? crossing_offset_1 : _e11);
     }
-    vec3 _e67 = sum_2.sum;
-    vec3 _e68 = start;
-    vec3 _e69 = start_offset;
-    vec3 _e70 = end;
-    vec3 _e71 = end_offset;
-    vec3 _e72 = ltc_edge_from(reference, _e68, _e69, _e70, _e71, _e12);
-    sum_2.sum = (_e67 - _e72);
+    vec3 _e68 = sum_2.sum;
+    vec3 _e69 = start;
+    vec3 _e70 = start_offset;
+    vec3 _e71 = end;
+    vec3 _e72 = end_offset;
+    vec3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
+    sum_2.sum = (_e68 - _e73);
     return;
 }
 #endif
@@ -1651,7 +1661,7 @@ LtcPolygon ltc_polygon_begin(LtcSurface surface, vec3 corner) {
 
 #if LTC_POLYGON
 // Adds the next vertex.
-void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_10, vec3 corner) {
+void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_11, vec3 corner) {
     LtcOutline outline_5 = LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     LtcOutlineLobe sum = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0));
     LtcOutline _e5 = polygon.outline;
@@ -1662,7 +1672,7 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_
 #if LTC_GGX
     if (ltc_use_ggx) {
         LtcOutline _e11 = outline_5;
-        ltc_outline_lobe_add(sum, _e11, lobe_10);
+        ltc_outline_lobe_add(sum, _e11, lobe_11);
     }
 #endif
     LtcOutline _e13 = outline_5;
@@ -1675,10 +1685,10 @@ void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_
 
 #if LTC_POLYGON
 // The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
-vec3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_11, bool two_sided) {
+vec3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_12, bool two_sided) {
     vec3 toward = vec3(0.0);
     vec3 first_2 = polygon.outline.first;
-    ltc_polygon_add(polygon, surface, lobe_11, first_2);
+    ltc_polygon_add(polygon, surface, lobe_12, first_2);
     LtcOutline _e8 = polygon.outline;
     float _e9 = ltc_outline_diffuse(_e8, two_sided);
 #if LTC_GGX
@@ -1690,7 +1700,7 @@ vec3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_
     }
 #endif
     vec3 _e19 = toward;
-    vec3 _e20 = ltc_value(surface, lobe_11, _e9, _e19);
+    vec3 _e20 = ltc_value(surface, lobe_12, _e9, _e19);
     return _e20;
 }
 #endif
@@ -1829,10 +1839,12 @@ LtcTube ltc_tube_begin(LtcSurface surface, vec3 start_2, vec3 end_2, float radiu
         tube.start_weight = _e190.w;
         tube.end_cap = _e192.xyz;
         tube.end_weight = _e192.w;
+        float _e202 = tube.share;
+        tube.share = (_e202 * max((1.0 - (turned * turned)), 0.0));
     }
 #endif
-    LtcTube _e201 = tube;
-    return _e201;
+    LtcTube _e209 = tube;
+    return _e209;
 }
 #endif
 
@@ -2042,7 +2054,7 @@ LtcLookup ltc_lookup(vec3 toward, vec3 rise, vec3 normal_u, vec3 normal_v, vec3 
     float cosine = (abs(facing) * inversesqrt(max(dot(normal, normal), LTC_TINY)));
     float lean = ((LTC_LOOKUP_TILT * (1.0 - rise.z)) + (LTC_LOOKUP_EDGE_ON * (1.0 - cosine)));
     float blur = (0.9409 * max((1.0 - lean), 0.05));
-    float aspect = (texels.x / texels.y);
+    float aspect = (max(texels.x, 1.0) / max(texels.y, 1.0));
     float x_4 = ((blur * moment.x) * aspect);
     float y = (blur * moment.y);
     float z = ((blur * moment.z) / aspect);
@@ -2050,9 +2062,9 @@ LtcLookup ltc_lookup(vec3 toward, vec3 rise, vec3 normal_u, vec3 normal_v, vec3 
     float square = ((difference * difference) + (y * y));
     float turn = (square * inversesqrt(max(square, LTC_TINY)));
     float longer = ((0.5 * (x_4 + z)) + turn);
-    float _e170 = ltc_outlined(longer);
-    float _e176 = ltc_outlined((((blur * blur) * area) / max(longer, LTC_TINY)));
-    vec2 sides = vec2(_e170, _e176);
+    float _e174 = ltc_outlined(longer);
+    float _e180 = ltc_outlined((((blur * blur) * area) / max(longer, LTC_TINY)));
+    vec2 sides = vec2(_e174, _e180);
     float sides_product = (sides.x * sides.y);
     float single = (sides_product * inversesqrt(max(sides_product, LTC_TINY)));
     float variance = (pair ? max(sides.y, (LTC_LOOKUP_PAIR_SHARE * sides.x)) : single);
@@ -2065,8 +2077,8 @@ LtcLookup ltc_lookup(vec3 toward, vec3 rise, vec3 normal_u, vec3 normal_v, vec3 
     lookup.place = clamp((vec2(0.5) + ((middle - vec2(0.5)) * push)), vec2(0.0), vec2(1.0));
     lookup.apart = (reach * vec2((axis.x / stretch), (axis.y * stretch)));
     lookup.level = level;
-    LtcLookup _e261 = lookup;
-    return _e261;
+    LtcLookup _e265 = lookup;
+    return _e265;
 }
 #endif
 
@@ -2314,7 +2326,7 @@ LtcCut ltc_cut(vec3 normal_9, vec3 half_x, vec3 half_y, float size, vec3 centre)
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
-// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `constant`, all
+// One step of Laguerre's iteration towards the largest root of x^3 + `quadratic` x^2 + `linear` x + `absolute`, all
 // of whose roots are real.
 float ltc_cone_step(float x, float quadratic, float linear, float absolute) {
     float value = (((((x + quadratic) * x) + linear) * x) + absolute);

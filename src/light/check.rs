@@ -1,6 +1,6 @@
 //! What keeps a light from being shaded.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::{Light, polygon_normal};
 
@@ -83,7 +83,7 @@ impl Light {
 
 fn axes(half_x: DVec3, half_y: DVec3) -> Result<(), LightError> {
     let direction = |field: &'static str, v: DVec3| {
-        let scaled = v / v.abs().max_element();
+        let scaled = if v.as_vec3() == Vec3::ZERO { DVec3::ZERO } else { v / v.abs().max_element() };
         scaled.try_normalize().ok_or(LightError::ZeroAxis { field })
     };
     let (x, y) = (direction("half_x", half_x)?, direction("half_y", half_y)?);
@@ -94,5 +94,6 @@ fn positive(radius: f64) -> Result<(), LightError> {
     if !(radius as f32).is_finite() {
         return Err(LightError::NotFinite { field: "radius".to_owned(), value: radius.to_string() });
     }
-    if radius > 0.0 { Ok(()) } else { Err(LightError::Radius { radius }) }
+    // What rounds to zero in single precision is zero to a shader.
+    if radius as f32 > 0.0 { Ok(()) } else { Err(LightError::Radius { radius }) }
 }

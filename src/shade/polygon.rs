@@ -1,6 +1,8 @@
 //! Polygons of any number of vertices, convex or not, vertex by vertex.
 
-use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above, ltc_offset};
+use super::quad::{
+    OVER_TWO_PI, ltc_above_tolerance, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above, ltc_offset,
+};
 use super::real::{Real, Vector};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
@@ -212,7 +214,8 @@ fn ltc_outline_lobe_edge<R: Real>(
 ) {
     let normal = ltc_transform_normal(lobe, normal);
     let (a, b) = (a.transform(lobe), b.transform(lobe));
-    let (a_up, b_up) = (ltc_is_above::<R>(a.at), ltc_is_above::<R>(b.at));
+    let tolerance = ltc_above_tolerance(lobe);
+    let (a_up, b_up) = (ltc_is_above::<R>(a.at, tolerance), ltc_is_above::<R>(b.at, tolerance));
     let turned = if a_up { normal } else { -normal };
     let ends = [(a, a.at.z(), a_up), (b, b.at.z(), b_up)];
     let edges = cut(ends[0], ends[1], &mut sum.crossing, |above, below, t| Point {

@@ -112,8 +112,13 @@ pub fn ltc_far_offset<R: Real>(origin: R::Vec3, reference: R::Vec3, offset: R::V
 }
 
 /// Whether `v` lies above the lobe's horizon, or on it but for rounding.
-pub fn ltc_is_above<R: Real>(v: R::Vec3) -> bool {
-    (v.z() > R::new(0.0)) | (v.z() * v.z() < R::new(1e-12) * v.dot(v))
+pub fn ltc_is_above<R: Real>(v: R::Vec3, tolerance: R) -> bool {
+    (v.z() > R::new(0.0)) | (v.z() * v.z() < tolerance * v.dot(v))
+}
+
+/// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
+pub fn ltc_above_tolerance<R: Real>(lobe: &LtcLobe<R>) -> R {
+    R::new(1e-12) * lobe.axis_z.dot(lobe.axis_z).min(R::new(1.0))
 }
 
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where it
@@ -131,9 +136,9 @@ pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) ->
 
 /// Vector form factor, times 2π and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 /// horizon. Each normal has the direction of the cross product of its vertex and the next one.
-pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::Vec3 {
+pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5], tolerance: R) -> R::Vec3 {
     let zero: R = R::new(0.0);
-    let up = vertices.map(ltc_is_above::<R>);
+    let up = vertices.map(|v| ltc_is_above::<R>(v, tolerance));
     if up == [false; 5] {
         return R::Vec3::new(zero, zero, zero);
     }
@@ -329,7 +334,7 @@ pub fn ltc_quad_lobe<R: Real>(quad: &LtcQuad<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
         ltc_far_pentagon::<R>(base, v)
     } else {
         let normals = quad.normals.map(|normal| ltc_transform_normal(lobe, normal));
-        ltc_pentagon::<R>(v.map(|v| base + v), normals)
+        ltc_pentagon::<R>(v.map(|v| base + v), normals, ltc_above_tolerance(lobe))
     };
     ltc_received_vector::<R>(sum * R::new(OVER_TWO_PI), quad.front, quad.two_sided)
 }

@@ -182,7 +182,7 @@ pub fn ltc_lookup_with<R: Real>(
     let cosine = facing.abs() * normal.dot(normal).max(tiny).inverse_sqrt();
     let lean = R::new(constants.tilt) * (one - rise.z()) + R::new(constants.edge_on) * (one - cosine);
     let blur = R::new(constants.blur * constants.blur) * (one - lean).max(R::new(0.05));
-    let aspect = width / height;
+    let aspect = width.max(one) / height.max(one);
     let (x, y, z) = (blur * moment[0] * aspect, blur * moment[1], blur * moment[2] / aspect);
     let difference = half * (x - z);
     let square = difference * difference + y * y;

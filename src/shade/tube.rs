@@ -153,6 +153,8 @@ pub fn ltc_tube_begin<R: Real>(
     let (start_cap, start_weight) = ltc_tube_cap_begin(surface, p_a, a_inverse, -axis, r, reach, turned);
     let (end_cap, end_weight) = ltc_tube_cap_begin(surface, p_b, b_inverse, axis, r, reach, -turned);
     let weigh = |weight: R| if caps { weight } else { zero };
+    // Seen along its axis a capsule shows one cap, and its side lies behind it.
+    let side = if caps { (one - turned * turned).max(zero) } else { one };
     LtcTube {
         start: q_a + left * a_part,
         remaining_length: length * (one - a_part - b_part).max(zero),
@@ -161,7 +163,7 @@ pub fn ltc_tube_begin<R: Real>(
         axis,
         sine,
         across,
-        share: if above { seen } else { zero },
+        share: (if above { seen } else { zero }) * side,
         start_cap,
         start_weight: weigh(start_weight),
         end_cap,
