@@ -4,10 +4,12 @@
 pub mod cost;
 #[cfg(feature = "bake")]
 mod measure;
+#[cfg(feature = "bake")]
 mod texture;
 
 #[cfg(feature = "bake")]
 pub use measure::{Accuracy, Quad, REGIONS, Region, Technique, accuracy, random_quads, shade};
+#[cfg(feature = "bake")]
 pub use texture::{
     Colouring, PICTURE_SIZE, TextureAccuracy, fetch, form_factors, lookup_sights, pictures, texture_accuracy,
 };
