@@ -141,8 +141,8 @@ fn purpose(target: Target) -> &'static str {
 fn describe(container: Container) -> &'static str {
     match container {
         Container::Raw => "the texels as they are uploaded: little-endian, layer after layer, row after row",
-        Container::Dds => "DirectDraw surface, DX10 header, array of 2, R16G16B16A16_FLOAT",
-        Container::Ktx => "Khronos texture 2, array of 2, R16G16B16A16_SFLOAT",
+        Container::Dds => "DirectDraw surface, DX10 header, an array of R16G16B16A16_FLOAT layers",
+        Container::Ktx => "Khronos texture 2, an array of R16G16B16A16_SFLOAT layers",
         Container::Rust => "a Rust constant of half-precision bits",
         Container::C => "a C and C++ array of half-precision bits",
     }
