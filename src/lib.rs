@@ -80,6 +80,8 @@ pub mod effects;
 #[cfg(feature = "bake")]
 pub mod fit;
 #[cfg(feature = "shade")]
+mod ktx;
+#[cfg(feature = "shade")]
 pub mod light;
 #[cfg(feature = "shade")]
 pub mod lobe;

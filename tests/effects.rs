@@ -1,6 +1,5 @@
 //! A module pays only for what it is asked for: proof by deletion, and compilation of every choice.
 
-#[allow(dead_code, reason = "other tests use the rest")]
 #[path = "common/tools.rs"]
 mod tools;
 

@@ -1,7 +1,6 @@
 //! Selection from programs that nobody would write: random branches on random conditions.
 
 mod common;
-#[allow(dead_code, reason = "other tests use the rest")]
 #[path = "common/sets.rs"]
 mod sets;
 

@@ -2,7 +2,6 @@
 //! switches as overrides of the pipeline, which another compiler decides.
 
 mod common;
-#[allow(dead_code, reason = "other tests use the rest")]
 #[path = "common/sets.rs"]
 mod sets;
 

@@ -1,6 +1,5 @@
 //! Sets of effects, their texts, and the include's text by them.
 
-#[allow(dead_code, reason = "other tests use the rest")]
 #[path = "common/sets.rs"]
 mod sets;
 

@@ -2743,7 +2743,7 @@ fn ltc_shading(position: vec3<f32>, normal: vec3<f32>, view: vec3<f32>, material
     let surface = ltc_surface(position, normal, view, material.roughness);
     var shading: LtcShading;
     shading.surface = surface;
-    if (ltc_use_anisotropic) {
+    if (ltc_use_anisotropic & (material.anisotropy > 0.0)) {
         let alpha = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         let anisotropy = ltc_anisotropy(surface, material.grain, alpha.x, alpha.y);
         shading.specular = ltc_anisotropic_lobe_from_table(surface, anisotropy, table, table_sampler, table_size, layers.anisotropic);

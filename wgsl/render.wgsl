@@ -291,8 +291,8 @@ fn render_reflected_picture(shading: LtcShading, material: LtcMaterial, light: R
     return ltc_reflected_picture(shading, material, a, b, c, d, two_sided, first_picture, picture_sampler, vec2<f32>(textureDimensions(first_picture)));
 }
 
-/// What a surface receives of a light of unit radiance, in the diffuse part by Lambert's law if `smooth_diffuse`.
-fn render_received(shading: LtcShading, light: RenderLight, smooth_diffuse: bool) -> LtcReceived {
+/// What a surface receives of a light of unit radiance.
+fn render_received(shading: LtcShading, light: RenderLight) -> LtcReceived {
     let first = light.first;
     let two_sided = (light.flags & RENDER_TWO_SIDED) != 0u;
     let a = vertices[first];
@@ -317,8 +317,6 @@ fn render_received(shading: LtcShading, light: RenderLight, smooth_diffuse: bool
         }
         received = ltc_shading_polygon_end(&polygon, shading, two_sided);
     }
-    // What the lobe of Lambert's law has, but for rounding.
-    received.rough = select(received.rough, received.diffuse, smooth_diffuse);
     return received;
 }
 
@@ -342,15 +340,7 @@ fn render_shade(hit: RenderHit, view: vec3<f32>) -> vec3<f32> {
     layers.diffuse = settings.diffuse_layer;
     layers.anisotropic = settings.anisotropic_layer;
     let table_size = f32(textureDimensions(table).x);
-    var shading = ltc_shading(hit.position, hit.normal, view, material, layers, table, table_sampler, table_size);
-    // Where another material calls for an effect and this one does not, it must look as it does without.
-    if (ltc_use_anisotropic & (object.anisotropy == 0.0)) {
-        shading.specular = ltc_lobe_from_table(shading.surface, table, table_sampler, table_size);
-    }
-    let smooth_diffuse = object.diffuse_roughness == 0.0;
-    if (ltc_use_rough_diffuse & smooth_diffuse) {
-        shading.rough = ltc_planar_lobe(shading.surface, vec4<f32>(1.0, 0.0, 0.0, 1.0), 1.0, 0.0);
-    }
+    let shading = ltc_shading(hit.position, hit.normal, view, material, layers, table, table_sampler, table_size);
     var sum = vec3<f32>(0.0);
     for (var index = 0u; index < settings.light_count; index++) {
         let light = lights[index];
@@ -358,7 +348,7 @@ fn render_shade(hit: RenderHit, view: vec3<f32>) -> vec3<f32> {
         if (ltc_use_textured & (light.picture != 0u)) {
             reflected = render_reflected_picture(shading, material, light);
         } else {
-            reflected = ltc_reflected(shading, material, render_received(shading, light, smooth_diffuse));
+            reflected = ltc_reflected(shading, material, render_received(shading, light));
         }
         sum += light.radiance * reflected;
     }

@@ -3171,47 +3171,45 @@ LtcShading ltc_shading(vec3 position, vec3 normal, vec3 view, LtcMaterial materi
     LtcSurface _e9 = ltc_surface(position, normal, view, material.roughness);
     shading.surface = _e9;
 #if LTC_ANISOTROPIC
-    if (ltc_use_anisotropic) {
-        vec2 _e15 = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
-        LtcAnisotropy _e19 = ltc_anisotropy(_e9, material.grain, _e15.x, _e15.y);
-        LtcLobe _e22 = ltc_anisotropic_lobe_from_table(_e9, _e19, table, table_size, layers.anisotropic);
-        shading.specular = _e22;
+    if ((ltc_use_anisotropic && (material.anisotropy > 0.0))) {
+        vec2 _e19 = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
+        LtcAnisotropy _e23 = ltc_anisotropy(_e9, material.grain, _e19.x, _e19.y);
+        LtcLobe _e26 = ltc_anisotropic_lobe_from_table(_e9, _e23, table, table_size, layers.anisotropic);
+        shading.specular = _e26;
     } else {
 #else
     {
 #endif
-#if !LTC_ANISOTROPIC
 #if LTC_GGX
         if (ltc_use_ggx) {
-            LtcLobe _e25 = ltc_lobe_from_table(_e9, table, table_size);
-            shading.specular = _e25;
+            LtcLobe _e29 = ltc_lobe_from_table(_e9, table, table_size);
+            shading.specular = _e29;
         }
-#endif
 #endif
     }
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        LtcSurface _e29 = ltc_surface_with_roughness(_e9, material.coat_roughness);
-        LtcLobe _e30 = ltc_lobe_from_table(_e29, table, table_size);
-        shading.coat = _e30;
+        LtcSurface _e33 = ltc_surface_with_roughness(_e9, material.coat_roughness);
+        LtcLobe _e34 = ltc_lobe_from_table(_e33, table, table_size);
+        shading.coat = _e34;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        LtcSurface _e34 = ltc_surface_with_roughness(_e9, material.sheen_roughness);
-        LtcLobe _e36 = ltc_sheen_lobe_from_table(_e34, table, table_size, layers.sheen);
-        shading.sheen = _e36;
+        LtcSurface _e38 = ltc_surface_with_roughness(_e9, material.sheen_roughness);
+        LtcLobe _e40 = ltc_sheen_lobe_from_table(_e38, table, table_size, layers.sheen);
+        shading.sheen = _e40;
     }
 #endif
 #if LTC_ROUGH_DIFFUSE
     if (ltc_use_rough_diffuse) {
-        LtcSurface _e40 = ltc_surface_with_roughness(_e9, material.diffuse_roughness);
-        LtcLobe _e42 = ltc_diffuse_lobe_from_table(_e40, table, table_size, layers.diffuse);
-        shading.rough = _e42;
+        LtcSurface _e44 = ltc_surface_with_roughness(_e9, material.diffuse_roughness);
+        LtcLobe _e46 = ltc_diffuse_lobe_from_table(_e44, table, table_size, layers.diffuse);
+        shading.rough = _e46;
     }
 #endif
-    LtcShading _e43 = shading;
-    return _e43;
+    LtcShading _e47 = shading;
+    return _e47;
 }
 
 #if (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)

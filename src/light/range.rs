@@ -39,7 +39,7 @@ impl Light {
             }
             Self::Disk { half_x, half_y, .. } => PI * half_x.cross(half_y).length(),
             Self::Sphere { radius, .. } => PI * radius * radius,
-            // An open cylinder shows its inside as well: at most its lateral rectangle and one disk.
+            // The silhouette of a capsule; an open tube's is smaller.
             Self::Tube { start, end, radius, .. } => {
                 2.0 * radius * start.distance(end) + PI * radius * radius
             }

@@ -154,7 +154,7 @@ pub fn ltc_shading<R: Real>(
     let surface = ltc_surface(position, normal, view, material.roughness);
     let with = |roughness: R| ltc_surface_with_roughness(&surface, roughness);
     let on = |effect: Effect| effects.contains(effect);
-    let specular = if on(Effect::Anisotropic) {
+    let specular = if on(Effect::Anisotropic) & (material.anisotropy > R::new(0.0)) {
         let alpha = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         let [along, across] = alpha.into();
         Some(table.anisotropic_lobe(&surface, &ltc_anisotropy(&surface, material.grain, along, across)))

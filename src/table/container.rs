@@ -1,6 +1,7 @@
 //! The table in the file formats that engines read.
 
 use super::Table;
+use crate::ktx;
 
 /// A way to write a table's texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -46,7 +47,8 @@ impl Container {
         Ok(match self {
             Self::Raw => table.bytes(),
             Self::Dds => dds(table)?,
-            Self::Ktx => ktx(table),
+            // An array of one layer is written as such, not as a plain texture.
+            Self::Ktx => ktx::file([table.size(); 2], table.layers().len(), &[table.bytes()], false),
             Self::Rust => rust(table).into_bytes(),
             Self::C => c(table).into_bytes(),
         })
@@ -71,59 +73,6 @@ fn dds(table: &Table) -> Result<Vec<u8>, ContainerError> {
     let mut bytes = Vec::new();
     file.write(&mut bytes)?;
     Ok(bytes)
-}
-
-/// KTX 2.0 by its specification (Khronos, sections 3 and 4): identifier, header, index, one level,
-/// data format descriptor, level data. No crate writes it for an uncompressed array.
-fn ktx(table: &Table) -> Vec<u8> {
-    const IDENTIFIER: [u8; 12] = [0xAB, b'K', b'T', b'X', b' ', b'2', b'0', 0xBB, b'\r', b'\n', 0x1A, b'\n'];
-    const VK_FORMAT_R16G16B16A16_SFLOAT: u32 = 97;
-    const HEADER_LENGTH: u32 = 80;
-    const LEVEL_INDEX_LENGTH: u32 = 24;
-    const SAMPLES: u32 = 4;
-    const DESCRIPTOR_LENGTH: u32 = 4 + 24 + 16 * SAMPLES;
-
-    let data = table.bytes();
-    let descriptor_at = HEADER_LENGTH + LEVEL_INDEX_LENGTH;
-    // Level data starts at a multiple of the texel's 8 bytes.
-    let data_at = (descriptor_at + DESCRIPTOR_LENGTH).next_multiple_of(8);
-    let size = table.size() as u32;
-    // An array of one layer is written as such, not as a plain texture.
-    let layers = table.layers().len() as u32;
-
-    let mut bytes = IDENTIFIER.to_vec();
-    let mut put = |word: u32| bytes.extend(word.to_le_bytes());
-    // vkFormat, typeSize, width, height, depth, layers, faces, levels, supercompression.
-    for word in [VK_FORMAT_R16G16B16A16_SFLOAT, 2, size, size, 0, layers, 1, 1, 0] {
-        put(word);
-    }
-    // Offsets and lengths of descriptor, key/value data and (64-bit) supercompression data.
-    for word in [descriptor_at, DESCRIPTOR_LENGTH, 0, 0, 0, 0, 0, 0] {
-        put(word);
-    }
-    // The level's offset, length and uncompressed length, each of 64 bits.
-    for word in [data_at, 0, data.len() as u32, 0, data.len() as u32, 0] {
-        put(word);
-    }
-    // The basic data format descriptor: RGB with BT.709 primaries, linear, texel block of 8 bytes.
-    put(DESCRIPTOR_LENGTH);
-    put(0);
-    put(2 | ((DESCRIPTOR_LENGTH - 4) << 16));
-    put(u32::from_le_bytes([1, 1, 1, 0]));
-    put(0);
-    put(8);
-    put(0);
-    // Each sample: bit offset, bit length − 1, channel with the float and signed flags; position;
-    // the range −1…1 as floats.
-    for (index, channel) in [0_u32, 1, 2, 15].into_iter().enumerate() {
-        put((16 * index as u32) | (15 << 16) | ((channel | 0xC0) << 24));
-        put(0);
-        put((-1.0_f32).to_bits());
-        put(1.0_f32.to_bits());
-    }
-    bytes.resize(data_at as usize, 0);
-    bytes.extend(data);
-    bytes
 }
 
 fn words(table: &Table) -> impl Iterator<Item = String> {

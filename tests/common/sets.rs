@@ -1,4 +1,5 @@
 //! Sets of effects to try on a text.
+#![allow(dead_code, reason = "each test file uses a part of this module")]
 
 use softbox::effects::{Effect, Effects};
 

@@ -1,4 +1,5 @@
 //! Compilers that the tests run.
+#![allow(dead_code, reason = "each test file uses a part of this module")]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
