@@ -24,6 +24,7 @@
 //! | `device` | evaluation on a wgpu adapter |
 //! | `scene` | scene files and their rendering |
 //! | `cost` | what a compiler for AMD's processors makes of a set of effects |
+//! | `report` | errors and costs of every quality level, side by side |
 
 use include_dir::{Dir, include_dir};
 

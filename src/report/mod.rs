@@ -2,13 +2,19 @@
 
 #[cfg(feature = "cost")]
 pub mod cost;
+#[cfg(feature = "report")]
+pub mod data;
 #[cfg(feature = "bake")]
 mod measure;
+#[cfg(feature = "report")]
+mod method;
 #[cfg(feature = "bake")]
 mod texture;
 
 #[cfg(feature = "bake")]
 pub use measure::{Accuracy, Quad, REGIONS, Region, Technique, accuracy, random_quads, shade};
+#[cfg(feature = "report")]
+pub use method::Method;
 #[cfg(feature = "bake")]
 pub use texture::{
     Colouring, PICTURE_SIZE, TextureAccuracy, fetch, form_factors, lookup_sights, pictures, texture_accuracy,
