@@ -20,9 +20,10 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobe from the two texels.
-//   2. ltc_lobe_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
-//      ltc_polygon functions: one lobe over a diffuse part.
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(ltc_lobe(...)) from the two
+//      texels, or ltc_two_lobes from three, ltc_three_lobes from five.
+//   2. ltc_lobes_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
+//      ltc_polygon functions: a specular over a diffuse part.
 //   3. ltc_shading: all lobes of a material; then ltc_shading_quad and so on for each light, and ltc_reflected.
 //
 // ARITHMETIC
@@ -105,6 +106,14 @@
 #ifndef LTC_CHEAP_HORIZON
 #define LTC_CHEAP_HORIZON 0
 #endif
+// Isotropic specular reflection by the sum of two lobes.
+#ifndef LTC_SECOND_LOBE
+#define LTC_SECOND_LOBE 0
+#endif
+// Isotropic specular reflection by the sum of three lobes.
+#ifndef LTC_THIRD_LOBE
+#define LTC_THIRD_LOBE 0
+#endif
 
 // A surface point with its shading frame: the view direction lies in the half-plane of tangent
 // and normal, tangent x bitangent = normal.
@@ -148,6 +157,31 @@ struct LtcLobe {
     float3 normal_y;
     // Third row of the cofactors.
     float3 normal_z;
+};
+
+// What makes a lobe whose matrix is planar, in the surface's frame: less to keep than the lobe.
+struct LtcShape {
+    // The matrix, as for ltc_planar_lobe.
+    float4 entries;
+    // The lobe's part of the BRDF's integral of f cos, for F = 1.
+    float albedo;
+    // Its part of the integral of f cos (1 - v.h)^5.
+    float fresnel;
+};
+
+// The lobes whose sum is isotropic GGX. Those that are switched off are not read.
+//
+// One linearly transformed cosine is not GGX: its tails are shorter, and Schlick's part is a lobe of another shape. A sum
+// of two or three, each with a weight for either part, comes closer, at the cost of a lobe each.
+struct LtcLobes {
+    // The first lobe; where it is the only one, that of ltc_lobe_from_table.
+    LtcLobe first;
+    // The second lobe.
+    LtcShape second;
+    // The third lobe.
+    LtcShape third;
+    // How many lobes this surface has; may be fewer than the switches allow.
+    int count;
 };
 
 #if LTC_QUAD || LTC_TEXTURED
@@ -254,12 +288,24 @@ struct LtcOutlineLobe {
 #endif
 
 #if LTC_POLYGON
-// A polygon's outline and the lobe that it lights.
+// What the lobes of a sum know of an outline. Those that are switched off are not read.
+struct LtcOutlineLobes {
+    // What the first lobe knows.
+    LtcOutlineLobe first;
+    // What the second lobe knows.
+    LtcOutlineLobe second;
+    // What the third lobe knows.
+    LtcOutlineLobe third;
+};
+#endif
+
+#if LTC_POLYGON
+// A polygon's outline and the lobes that it lights.
 struct LtcPolygon {
     // The outline.
     LtcOutline outline;
-    // What the lobe knows of it.
-    LtcOutlineLobe lobe;
+    // What the lobes know of it.
+    LtcOutlineLobes sums;
 };
 #endif
 
@@ -302,6 +348,16 @@ struct LtcLookup {
     float2 apart;
     // Level among the mipmaps; from 0 to any number beyond the last one.
     float level;
+};
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+// What a sum of lobes sees of a rectangle that shows a picture.
+struct LtcSeen {
+    // The colour that the lobes see on average, each by its share of the specular value.
+    float3 colour;
+    // The parts (specular, fresnel) for a white picture.
+    float2 value;
 };
 #endif
 
@@ -468,6 +524,8 @@ struct LtcMaterial {
 // Which layers of the table's texture array hold what; constants of the caller. Those of switched-off effects
 // are not read.
 struct LtcLayers {
+    // The first of the layers of several lobes, see ltc_lobes_from_table.
+    int lobes;
     // The layer of the sheen.
     int sheen;
     // The layer of rough diffuse parts.
@@ -480,10 +538,10 @@ struct LtcLayers {
 struct LtcShading {
     // The point and its frame.
     LtcSurface surface;
-    // The specular lobe.
-    LtcLobe specular;
-    // The coat's lobe.
-    LtcLobe coat;
+    // The specular lobes. An anisotropic surface has one; the others weigh nothing there.
+    LtcLobes specular;
+    // The coat's lobes.
+    LtcLobes coat;
     // The sheen's lobe.
     LtcLobe sheen;
     // The lobe of a rough diffuse part.
@@ -509,10 +567,10 @@ struct LtcReceived {
 struct LtcShadingPolygon {
     // Its outline.
     LtcOutline outline;
-    // What the specular lobe knows of it.
-    LtcOutlineLobe specular;
-    // What the coat's lobe knows of it.
-    LtcOutlineLobe coat;
+    // What the specular lobes know of it.
+    LtcOutlineLobes specular;
+    // What the coat's lobes know of it.
+    LtcOutlineLobes coat;
     // What the sheen's lobe knows of it.
     LtcOutlineLobe sheen;
     // What the rough diffuse lobe knows of it.
@@ -546,6 +604,12 @@ static const bool ltc_use_caps = bool(LTC_CAPS);
 
 // Whether quads are cut at the horizons by a cheap approximation, see ltc_quad. Off unless it is asked for.
 static const bool ltc_use_cheap_horizon = bool(LTC_CHEAP_HORIZON);
+
+// Whether isotropic GGX is the sum of two lobes rather than one, see LtcLobes. Off unless it is asked for.
+static const bool ltc_use_second_lobe = bool(LTC_SECOND_LOBE);
+
+// Whether it is the sum of three; means nothing without the second lobe. Off unless it is asked for.
+static const bool ltc_use_third_lobe = bool(LTC_THIRD_LOBE);
 
 // Pi.
 static const float LTC_PI = 3.1415927;
@@ -646,7 +710,7 @@ LtcSurface ltc_surface(float3 position, float3 normal, float3 view, float roughn
     return ltcsurface;
 }
 
-#if LTC_ANISOTROPIC || LTC_CLEARCOAT || LTC_GGX || LTC_ROUGH_DIFFUSE || LTC_SHEEN
+#if LTC_ANISOTROPIC || (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || LTC_GGX || LTC_ROUGH_DIFFUSE || LTC_SHEEN
 // Texture coordinates of a surface in a table of `table_size` by `table_size` texels: roughness
 // along x, the square root of the view's cosine along y, from the first texel's centre to the last
 // one's. Sample with bilinear filtering and clamping.
@@ -657,16 +721,41 @@ float2 ltc_table_coordinates(LtcSurface surface, float table_size)
 }
 #endif
 
-#if LTC_CLEARCOAT || LTC_GGX || LTC_ROUGH_DIFFUSE || LTC_SHEEN
+#if (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX || LTC_SECOND_LOBE || LTC_THIRD_LOBE
+// The shape that a texel of the table describes.
+//
+// It holds the lobe as its deviation (X, Y, Z, W) from the mirror's lobe, in units of the lobe's width, with t the
+// angle between normal and view:
+//     x = cos^2 t + alpha X      z = sin t (cos t + alpha Z)
+//     y = alpha sin t Y          w = alpha W
+// so neither interpolation nor half precision moves a sharp highlight off its place. For
+// alpha -> 0, X and Z vanish, and the rest tends to Y = -2 cos t, W = 2 cos^2 t.
+LtcShape ltc_shape(LtcSurface surface, float4 texel, float albedo, float fresnel)
+{
+    LtcShape shape = (LtcShape)0;
+
+    float c = surface.cos_view;
+    float s = surface.sin_view;
+    float a = surface.alpha;
+    shape.entries = float4(((c * c) + (a * texel.x)), ((a * s) * texel.y), (s * (c + (a * texel.z))), (a * texel.w));
+    shape.albedo = albedo;
+    shape.fresnel = fresnel;
+    LtcShape _e25 = shape;
+    const LtcShape ltcshape = _e25;
+    return ltcshape;
+}
+#endif
+
+#if (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX || LTC_ROUGH_DIFFUSE || LTC_SECOND_LOBE || LTC_SHEEN || LTC_THIRD_LOBE
 // The lobe whose inverse matrix has the rows (m.x, 0, m.z), (0, 1, 0), (m.y, 0, m.w) in the surface's frame.
-LtcLobe ltc_planar_lobe(LtcSurface surface, float4 m, float albedo, float fresnel)
+LtcLobe ltc_planar_lobe(LtcSurface surface, float4 m, float albedo_1, float fresnel_1)
 {
     LtcLobe lobe = (LtcLobe)0;
 
     lobe.axis_x = ((surface.tangent * m.x) + (surface.normal * m.z));
-    lobe.albedo = albedo;
+    lobe.albedo = albedo_1;
     lobe.axis_y = surface.bitangent;
-    lobe.fresnel = fresnel;
+    lobe.fresnel = fresnel_1;
     lobe.axis_z = ((surface.tangent * m.y) + (surface.normal * m.w));
     lobe.share = (0.5 + ((0.5 * m.x) * rsqrt(max(((m.x * m.x) + (m.y * m.y)), LTC_TINY))));
     lobe.normal_x = ((surface.tangent * m.w) - (surface.normal * m.y));
@@ -678,29 +767,29 @@ LtcLobe ltc_planar_lobe(LtcSurface surface, float4 m, float albedo, float fresne
 }
 #endif
 
-#if LTC_CLEARCOAT || LTC_GGX
-// The lobe that two texels of the table describe.
-//
-// `shape` (layer 0) holds the lobe as its deviation (X, Y, Z, W) from the mirror's lobe, in units
-// of the lobe's width, with t the angle between normal and view:
-//     x = cos^2 t + alpha X      z = sin t (cos t + alpha Z)
-//     y = alpha sin t Y          w = alpha W
-// so neither interpolation nor half precision moves a sharp highlight off its place. For
-// alpha -> 0, X and Z vanish, and the rest tends to Y = -2 cos t, W = 2 cos^2 t.
-// `amplitude` (layer 1) holds the albedo and its Schlick part in x and y.
-LtcLobe ltc_lobe(LtcSurface surface, float4 shape, float4 amplitude)
+#if (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX || LTC_SECOND_LOBE || LTC_THIRD_LOBE
+// The lobe of a shape.
+LtcLobe ltc_shape_lobe(LtcSurface surface, LtcShape shape)
 {
-    float c = surface.cos_view;
-    float s = surface.sin_view;
-    float a = surface.alpha;
-    float4 m = float4(((c * c) + (a * shape.x)), ((a * s) * shape.y), (s * (c + (a * shape.z))), (a * shape.w));
-    const LtcLobe _e22 = ltc_planar_lobe(surface, m, amplitude.x, amplitude.y);
-    const LtcLobe ltclobe = _e22;
+    const LtcLobe _e5 = ltc_planar_lobe(surface, shape.entries, shape.albedo, shape.fresnel);
+    const LtcLobe ltclobe = _e5;
     return ltclobe;
 }
 #endif
 
-#if LTC_CLEARCOAT || LTC_GGX
+#if (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX || LTC_SECOND_LOBE || LTC_THIRD_LOBE
+// The lobe that two texels of the table describe: the shape as for ltc_shape, and the albedo and its Schlick part in x
+// and y of `amplitude`.
+LtcLobe ltc_lobe(LtcSurface surface, float4 shape, float4 amplitude)
+{
+    const LtcShape _e5 = ltc_shape(surface, shape, amplitude.x, amplitude.y);
+    const LtcLobe _e6 = ltc_shape_lobe(surface, _e5);
+    const LtcLobe ltclobe = _e6;
+    return ltclobe;
+}
+#endif
+
+#if (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX
 // The lobe of a surface from the table's texture array (layers 0 and 1, `table_size` texels along
 // each side) and a sampler that filters linearly and clamps to the edge.
 LtcLobe ltc_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, SamplerState table_sampler, float table_size)
@@ -710,6 +799,130 @@ LtcLobe ltc_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, Sa
     float4 amplitude = table.SampleLevel(table_sampler, float3(_e4, int(1)), 0.0);
     const LtcLobe _e11 = ltc_lobe(surface, shape, amplitude);
     const LtcLobe ltclobe = _e11;
+    return ltclobe;
+}
+#endif
+
+#if LTC_ANISOTROPIC || (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX
+// A sum of one lobe, whatever the switches say.
+LtcLobes ltc_lobes_of(LtcLobe lobe)
+{
+    LtcLobes lobes = (LtcLobes)0;
+
+    lobes.first = lobe;
+    lobes.count = int(1);
+    LtcLobes _e5 = lobes;
+    const LtcLobes ltclobes = _e5;
+    return ltclobes;
+}
+#endif
+
+#if LTC_SECOND_LOBE
+// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (weight of the
+// first, weight of the second) for F = 1, then the same for Schlick's part.
+LtcLobes ltc_two_lobes(LtcSurface surface, float4 first, float4 second, float4 weights)
+{
+    LtcLobes lobes = (LtcLobes)0;
+
+    const LtcLobe _e7 = ltc_lobe(surface, first, weights.xzxz);
+    lobes.first = _e7;
+    const LtcShape _e11 = ltc_shape(surface, second, weights.y, weights.w);
+    lobes.second = _e11;
+    lobes.count = int(2);
+    LtcLobes _e14 = lobes;
+    const LtcLobes ltclobes = _e14;
+    return ltclobes;
+}
+#endif
+
+#if LTC_THIRD_LOBE
+// The sum of three lobes that five texels of the table describe: their shapes, their weights for F = 1, and those for
+// Schlick's part.
+LtcLobes ltc_three_lobes(LtcSurface surface, float4 first_1, float4 second_1, float4 third, float4 weights, float4 schlick)
+{
+    LtcLobes lobes = (LtcLobes)0;
+
+    const LtcLobe _e13 = ltc_lobe(surface, first_1, float4(weights.x, schlick.x, 0.0, 0.0));
+    lobes.first = _e13;
+    const LtcShape _e17 = ltc_shape(surface, second_1, weights.y, schlick.y);
+    lobes.second = _e17;
+    const LtcShape _e21 = ltc_shape(surface, third, weights.z, schlick.z);
+    lobes.third = _e21;
+    lobes.count = int(3);
+    LtcLobes _e24 = lobes;
+    const LtcLobes ltclobes = _e24;
+    return ltclobes;
+}
+#endif
+
+#if LTC_CLEARCOAT || LTC_GGX
+// The lobes of a surface, as many as the switches say, from the table's texture array and a sampler that filters linearly
+// and clamps to the edge. A single lobe is that of layers 0 and 1; of two lobes the three texels of ltc_two_lobes lie in
+// the layers from `layer` on, of three lobes the five of ltc_three_lobes.
+LtcLobes ltc_lobes_from_table(LtcSurface surface, Texture2DArray<float4> table, SamplerState table_sampler, float table_size, int layer)
+{
+    LtcLobes lobes = (LtcLobes)0;
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        const LtcLobe _e8 = ltc_lobe_from_table(surface, table, table_sampler, table_size);
+        const LtcLobes _e9 = ltc_lobes_of(_e8);
+        lobes = _e9;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        const float2 _e11 = ltc_table_coordinates(surface, table_size);
+        float4 first = table.SampleLevel(table_sampler, float3(_e11, layer), 0.0);
+        float4 second = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(1)))), 0.0);
+        float4 next = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(2)))), 0.0);
+#if !LTC_THIRD_LOBE
+        if (!(ltc_use_third_lobe)) {
+            const LtcLobes _e24 = ltc_two_lobes(surface, first, second, next);
+            lobes = _e24;
+        }
+#endif
+#if LTC_THIRD_LOBE
+        if (ltc_use_third_lobe) {
+            float4 weights = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(3)))), 0.0);
+            float4 schlick = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(4)))), 0.0);
+            const LtcLobes _e34 = ltc_three_lobes(surface, first, second, next, weights, schlick);
+            lobes = _e34;
+        }
+#endif
+    }
+#endif
+    LtcLobes _e35 = lobes;
+    const LtcLobes ltclobes = _e35;
+    return ltclobes;
+}
+#endif
+
+#if LTC_CLEARCOAT || LTC_GGX
+// The first lobe with the albedo and the Schlick part of all: for functions that ask how much a surface reflects, not where.
+LtcLobe ltc_lobes_together(LtcLobes lobes)
+{
+    LtcLobe together = (LtcLobe)0;
+
+    together = lobes.first;
+#if LTC_SECOND_LOBE
+    if ((ltc_use_second_lobe & (lobes.count > int(1)))) {
+        float _e9 = together.albedo;
+        together.albedo = (_e9 + lobes.second.albedo);
+        float _e14 = together.fresnel;
+        together.fresnel = (_e14 + lobes.second.fresnel);
+    }
+#endif
+#if LTC_THIRD_LOBE
+    if ((ltc_use_third_lobe & (lobes.count > int(2)))) {
+        float _e24 = together.albedo;
+        together.albedo = (_e24 + lobes.third.albedo);
+        float _e29 = together.fresnel;
+        together.fresnel = (_e29 + lobes.third.fresnel);
+    }
+#endif
+    LtcLobe _e33 = together;
+    const LtcLobe ltclobe = _e33;
     return ltclobe;
 }
 #endif
@@ -742,7 +955,7 @@ float3 ltc_reflectance(float3 value, float3 normal_reflectance, float3 grazing_r
 }
 #endif
 
-#if (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || LTC_GGX
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
 // The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
 // its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
 //
@@ -762,30 +975,12 @@ float2 ltc_specular(LtcSurface surface, LtcLobe lobe, float coverage, float3 tow
 }
 #endif
 
-#if (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || LTC_GGX
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
 // The parts (specular, fresnel) of a lobe from the vector form factor in its space.
 float2 ltc_lobe_value(LtcSurface surface, LtcLobe lobe, float3 toward)
 {
     const float2 _e9 = ltc_specular(surface, lobe, clamp((toward.z / lobe.share), 0.0, 1.0), toward);
     return _e9;
-}
-#endif
-
-#if LTC_DISK || LTC_POLYGON || LTC_QUAD || LTC_SPHERE || LTC_TUBE
-// The value (diffuse, specular, fresnel) from the form factor over the surface's horizon and the vector
-// form factor over both horizons in the lobe's space, both of the light that the surface receives.
-float3 ltc_value(LtcSurface surface, LtcLobe lobe, float form_factor, float3 toward)
-{
-    float2 specular = (0.0).xx;
-
-#if LTC_GGX
-    if (ltc_use_ggx) {
-        const float2 _e8 = ltc_lobe_value(surface, lobe, toward);
-        specular = _e8;
-    }
-#endif
-    float2 _e9 = specular;
-    return float3(form_factor, _e9);
 }
 #endif
 
@@ -801,7 +996,7 @@ float ltc_received(float form_factor, bool front, bool two_sided)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // ltc_received for a vector form factor, whose sign is that of its z.
 float3 ltc_received_vector(float3 form_factor, bool front, bool two_sided)
 {
@@ -864,7 +1059,7 @@ float3 ltc_edge(float3 a, float3 b, float3 normal, float scale)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || LTC_POLYGON || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || LTC_POLYGON || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // ltc_edge for a part of an edge, for which `normal` has the right direction only.
 float3 ltc_edge_part(float3 a, float3 b, float3 normal)
 {
@@ -945,7 +1140,7 @@ float3 ltc_far_offset(float3 origin, float3 reference, float3 offset)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
 // as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
 bool ltc_is_above(float3 v, float tolerance)
@@ -954,7 +1149,7 @@ bool ltc_is_above(float3 v, float tolerance)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
 float ltc_above_tolerance(LtcLobe lobe)
 {
@@ -962,7 +1157,7 @@ float ltc_above_tolerance(LtcLobe lobe)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
 // it passes the surface point closely. `normal` has the direction of above x below.
 float3 ltc_crossing(float3 above, float3 below, float3 normal)
@@ -1019,7 +1214,7 @@ float ltc_cap_above(float3 form_factor, float3 normal)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
 // horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
 // next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ, and
@@ -1356,7 +1551,7 @@ float3 ltc_quad_toward(LtcSurface surface, LtcQuad quad)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
 float3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe)
 {
@@ -1421,6 +1616,55 @@ float3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe)
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_GGX && LTC_QUAD) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN)
+// The parts (specular, fresnel) that a sum of lobes reflects of a quad of unit radiance.
+float2 ltc_quad_specular(LtcSurface surface, LtcQuad quad, LtcLobes lobes)
+{
+    float2 value = (0.0).xx;
+    LtcLobe lobe = (LtcLobe)0;
+    LtcShape shape = (LtcShape)0;
+    int index = int(1);
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        const float3 _e10 = ltc_quad_lobe(quad, lobes.first);
+        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        value = _e11;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        lobe = lobes.first;
+        shape = lobes.second;
+        while(true) {
+            float2 _e19 = value;
+            LtcLobe _e20 = lobe;
+            LtcLobe _e21 = lobe;
+            const float3 _e22 = ltc_quad_lobe(quad, _e21);
+            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            value = (_e19 + _e23);
+            int _e25 = index;
+            if ((_e25 >= lobes.count)) {
+                break;
+            }
+            LtcShape _e28 = shape;
+            const LtcLobe _e29 = ltc_shape_lobe(surface, _e28);
+            lobe = _e29;
+#if LTC_THIRD_LOBE
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+#endif
+            int _e32 = index;
+            index = asint(asuint(_e32) + asuint(int(1)));
+        }
+    }
+#endif
+    float2 _e35 = value;
+    return _e35;
+}
+#endif
+
 #if LTC_QUAD
 // The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
 // `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
@@ -1437,9 +1681,9 @@ float3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe)
 // Production"), and lobes are cut at their own horizon only. A light above the horizons has the same value; one that
 // straddles them is off by up to 0.07, by 1.8 % of the mean on random quads, and light may come from a little below the
 // surface.
-float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, float3 d, bool two_sided)
+float3 ltc_quad(LtcSurface surface, LtcLobes lobes, float3 a, float3 b, float3 c, float3 d, bool two_sided)
 {
-    float3 toward = (0.0).xxx;
+    float2 specular = (0.0).xx;
 
     const LtcQuad _e7 = ltc_quad_begin(surface, a, b, c, d, two_sided);
     if (!(_e7.reaches)) {
@@ -1447,14 +1691,13 @@ float3 ltc_quad(LtcSurface surface, LtcLobe lobe, float3 a, float3 b, float3 c, 
     }
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e16 = ltc_quad_lobe(_e7, lobe);
-        toward = _e16;
+        const float2 _e16 = ltc_quad_specular(surface, _e7, lobes);
+        specular = _e16;
     }
 #endif
     const float _e17 = ltc_quad_diffuse(surface, _e7);
-    float3 _e18 = toward;
-    const float3 _e19 = ltc_value(surface, lobe, _e17, _e18);
-    return _e19;
+    float2 _e18 = specular;
+    return float3(_e17, _e18);
 }
 #endif
 
@@ -1713,6 +1956,133 @@ float3 ltc_outline_lobe(LtcOutline outline, LtcOutlineLobe sum_4, bool two_sided
 #endif
 
 #if LTC_POLYGON
+// Starts what a sum of lobes knows of an outline.
+LtcOutlineLobes ltc_outline_lobes_begin()
+{
+    LtcOutlineLobes sums = (LtcOutlineLobes)0;
+
+    const LtcOutlineLobe _e2 = ltc_outline_lobe_begin();
+    sums.first = _e2;
+    const LtcOutlineLobe _e4 = ltc_outline_lobe_begin();
+    sums.second = _e4;
+    const LtcOutlineLobe _e6 = ltc_outline_lobe_begin();
+    sums.third = _e6;
+    LtcOutlineLobes _e7 = sums;
+    const LtcOutlineLobes ltcoutlinelobes = _e7;
+    return ltcoutlinelobes;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
+// Adds the outline's last edge to the lobes of a sum.
+void ltc_outline_lobes_add(inout LtcOutlineLobes sums, LtcSurface surface, LtcOutline outline, LtcLobes lobes)
+{
+    LtcOutlineLobe only = (LtcOutlineLobe)0;
+    LtcLobe lobe = (LtcLobe)0;
+    LtcShape shape = (LtcShape)0;
+    LtcOutlineLobe sum = (LtcOutlineLobe)0;
+    int index = int(1);
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        LtcOutlineLobe _e7 = sums.first;
+        only = _e7;
+        ltc_outline_lobe_add(only, outline, lobes.first);
+        LtcOutlineLobe _e11 = only;
+        sums.first = _e11;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        lobe = lobes.first;
+        shape = lobes.second;
+        LtcOutlineLobe _e18 = sums.first;
+        sum = _e18;
+        while(true) {
+            LtcLobe _e22 = lobe;
+            ltc_outline_lobe_add(sum, outline, _e22);
+            int _e23 = index;
+            if ((_e23 == int(1))) {
+                LtcOutlineLobe _e27 = sum;
+                sums.first = _e27;
+                LtcOutlineLobe _e29 = sums.second;
+                sum = _e29;
+            } else {
+                int _e30 = index;
+                if ((_e30 == int(2))) {
+                    LtcOutlineLobe _e34 = sum;
+                    sums.second = _e34;
+#if LTC_THIRD_LOBE
+                    if (ltc_use_third_lobe) {
+                        LtcOutlineLobe _e37 = sums.third;
+                        sum = _e37;
+                    }
+#endif
+                } else {
+                    LtcOutlineLobe _e39 = sum;
+                    sums.third = _e39;
+                }
+            }
+            int _e40 = index;
+            if ((_e40 >= lobes.count)) {
+                break;
+            }
+            LtcShape _e43 = shape;
+            const LtcLobe _e44 = ltc_shape_lobe(surface, _e43);
+            lobe = _e44;
+#if LTC_THIRD_LOBE
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+#endif
+            int _e47 = index;
+            index = asint(asuint(_e47) + asuint(int(1)));
+        }
+        return;
+    } else {
+#else
+    {
+#endif
+#if !LTC_SECOND_LOBE
+        return;
+#endif
+    }
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
+// The parts (specular, fresnel) that a sum of lobes reflects of a closed outline of unit radiance.
+float2 ltc_outline_specular(LtcSurface surface, LtcOutline outline, LtcOutlineLobes sums, LtcLobes lobes, bool two_sided)
+{
+    float2 value = (float2)0;
+
+    const float3 _e7 = ltc_outline_lobe(outline, sums.first, two_sided);
+    const float2 _e8 = ltc_lobe_value(surface, lobes.first, _e7);
+    value = _e8;
+#if LTC_SECOND_LOBE
+    if ((ltc_use_second_lobe & (lobes.count > int(1)))) {
+        float2 _e15 = value;
+        const LtcLobe _e17 = ltc_shape_lobe(surface, lobes.second);
+        const float3 _e19 = ltc_outline_lobe(outline, sums.second, two_sided);
+        const float2 _e20 = ltc_lobe_value(surface, _e17, _e19);
+        value = (_e15 + _e20);
+    }
+#endif
+#if LTC_THIRD_LOBE
+    if ((ltc_use_third_lobe & (lobes.count > int(2)))) {
+        float2 _e27 = value;
+        const LtcLobe _e29 = ltc_shape_lobe(surface, lobes.third);
+        const float3 _e31 = ltc_outline_lobe(outline, sums.third, two_sided);
+        const float2 _e32 = ltc_lobe_value(surface, _e29, _e31);
+        value = (_e27 + _e32);
+    }
+#endif
+    float2 _e34 = value;
+    return _e34;
+}
+#endif
+
+#if LTC_POLYGON
 // Starts a polygon at its first vertex.
 LtcPolygon ltc_polygon_begin(LtcSurface surface, float3 corner)
 {
@@ -1720,8 +2090,8 @@ LtcPolygon ltc_polygon_begin(LtcSurface surface, float3 corner)
 
     const LtcOutline _e4 = ltc_outline_begin(surface, corner);
     polygon.outline = _e4;
-    const LtcOutlineLobe _e6 = ltc_outline_lobe_begin();
-    polygon.lobe = _e6;
+    const LtcOutlineLobes _e6 = ltc_outline_lobes_begin();
+    polygon.sums = _e6;
     LtcPolygon _e7 = polygon;
     const LtcPolygon ltcpolygon = _e7;
     return ltcpolygon;
@@ -1730,51 +2100,50 @@ LtcPolygon ltc_polygon_begin(LtcSurface surface, float3 corner)
 
 #if LTC_POLYGON
 // Adds the next vertex.
-void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_11, float3 corner)
+void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobes lobes, float3 corner)
 {
-    LtcOutline outline_5 = (LtcOutline)0;
-    LtcOutlineLobe sum = (LtcOutlineLobe)0;
+    LtcOutline outline_7 = (LtcOutline)0;
+    LtcOutlineLobes sums_3 = (LtcOutlineLobes)0;
 
     LtcOutline _e5 = polygon.outline;
-    outline_5 = _e5;
-    LtcOutlineLobe _e8 = polygon.lobe;
-    sum = _e8;
-    ltc_outline_add(outline_5, surface, corner);
+    outline_7 = _e5;
+    LtcOutlineLobes _e8 = polygon.sums;
+    sums_3 = _e8;
+    ltc_outline_add(outline_7, surface, corner);
 #if LTC_GGX
     if (ltc_use_ggx) {
-        LtcOutline _e11 = outline_5;
-        ltc_outline_lobe_add(sum, _e11, lobe_11);
+        LtcOutline _e11 = outline_7;
+        ltc_outline_lobes_add(sums_3, surface, _e11, lobes);
     }
 #endif
-    LtcOutline _e13 = outline_5;
+    LtcOutline _e13 = outline_7;
     polygon.outline = _e13;
-    LtcOutlineLobe _e15 = sum;
-    polygon.lobe = _e15;
+    LtcOutlineLobes _e15 = sums_3;
+    polygon.sums = _e15;
     return;
 }
 #endif
 
 #if LTC_POLYGON
 // The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
-float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobe lobe_12, bool two_sided)
+float3 ltc_polygon_end(inout LtcPolygon polygon, LtcSurface surface, LtcLobes lobes, bool two_sided)
 {
-    float3 toward = (0.0).xxx;
+    float2 specular = (0.0).xx;
 
-    float3 first_2 = polygon.outline.first;
-    ltc_polygon_add(polygon, surface, lobe_12, first_2);
+    float3 first_5 = polygon.outline.first;
+    ltc_polygon_add(polygon, surface, lobes, first_5);
     LtcOutline _e8 = polygon.outline;
     const float _e9 = ltc_outline_diffuse(_e8, two_sided);
 #if LTC_GGX
     if (ltc_use_ggx) {
         LtcOutline _e15 = polygon.outline;
-        LtcOutlineLobe _e17 = polygon.lobe;
-        const float3 _e18 = ltc_outline_lobe(_e15, _e17, two_sided);
-        toward = _e18;
+        LtcOutlineLobes _e17 = polygon.sums;
+        const float2 _e18 = ltc_outline_specular(surface, _e15, _e17, lobes, two_sided);
+        specular = _e18;
     }
 #endif
-    float3 _e19 = toward;
-    const float3 _e20 = ltc_value(surface, lobe_12, _e9, _e19);
-    return _e20;
+    float2 _e19 = specular;
+    return float3(_e9, _e19);
 }
 #endif
 
@@ -2053,6 +2422,55 @@ float3 ltc_tube_lobe(LtcTube tube, LtcLobe lobe)
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_GGX && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) that a sum of lobes reflects of a tube of unit radiance.
+float2 ltc_tube_specular(LtcSurface surface, LtcTube tube, LtcLobes lobes)
+{
+    float2 value = (0.0).xx;
+    LtcLobe lobe = (LtcLobe)0;
+    LtcShape shape = (LtcShape)0;
+    int index = int(1);
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        const float3 _e10 = ltc_tube_lobe(tube, lobes.first);
+        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        value = _e11;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        lobe = lobes.first;
+        shape = lobes.second;
+        while(true) {
+            float2 _e19 = value;
+            LtcLobe _e20 = lobe;
+            LtcLobe _e21 = lobe;
+            const float3 _e22 = ltc_tube_lobe(tube, _e21);
+            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            value = (_e19 + _e23);
+            int _e25 = index;
+            if ((_e25 >= lobes.count)) {
+                break;
+            }
+            LtcShape _e28 = shape;
+            const LtcLobe _e29 = ltc_shape_lobe(surface, _e28);
+            lobe = _e29;
+#if LTC_THIRD_LOBE
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+#endif
+            int _e32 = index;
+            index = asint(asuint(_e32) + asuint(int(1)));
+        }
+    }
+#endif
+    float2 _e35 = value;
+    return _e35;
+}
+#endif
+
 #if LTC_TUBE
 // The value (diffuse, specular, fresnel) of a tube light of the given `radius` around the line from `start` to
 // `end`, at best an eighth of the distance or less; with `caps` its ends are rounded. See ltc_tube_begin.
@@ -2061,21 +2479,20 @@ float3 ltc_tube_lobe(LtcTube tube, LtcLobe lobe)
 // distance to that of the axis, in units of the angles under which the tube's width and length are seen,
 // each counted as no more than 1: so much do the coordinates' own digits leave open. For a lobe's coverage see
 // ltc_tube_lobe.
-float3 ltc_tube(LtcSurface surface, LtcLobe lobe, float3 start, float3 end, float radius, bool caps)
+float3 ltc_tube(LtcSurface surface, LtcLobes lobes, float3 start, float3 end, float radius, bool caps)
 {
-    float3 toward = (0.0).xxx;
+    float2 specular = (0.0).xx;
 
     const LtcTube _e6 = ltc_tube_begin(surface, start, end, radius, caps);
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e11 = ltc_tube_lobe(_e6, lobe);
-        toward = _e11;
+        const float2 _e11 = ltc_tube_specular(surface, _e6, lobes);
+        specular = _e11;
     }
 #endif
     const float _e12 = ltc_tube_diffuse(surface, _e6);
-    float3 _e13 = toward;
-    const float3 _e14 = ltc_value(surface, lobe, _e12, _e13);
-    return _e14;
+    float2 _e13 = specular;
+    return float3(_e12, _e13);
 }
 #endif
 
@@ -2228,6 +2645,75 @@ float4 ltc_texture_fetch_pair(Texture2D<float4> picture, SamplerState picture_sa
     float4 first = picture.SampleLevel(picture_sampler, (lookup.place + lookup.apart), lookup.level);
     float4 second = picture.SampleLevel(picture_sampler, (lookup.place - lookup.apart), lookup.level);
     return (0.5 * (first + second));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED)
+// What one lobe sees of a rectangle that shows a picture; see ltc_rectangle_lookup.
+LtcSeen ltc_lobe_picture(LtcSurface surface, LtcQuad quad, LtcLobe lobe, float3 a, float3 b, float3 d, Texture2D<float4> picture, SamplerState picture_sampler, float2 texels)
+{
+    LtcSeen seen = (LtcSeen)0;
+
+    const float3 _e9 = ltc_quad_lobe(quad, lobe);
+    const LtcLookup _e11 = ltc_rectangle_lookup(surface, lobe, a, b, d, _e9, texels, false);
+    const float4 _e14 = ltc_texture_fetch(picture, picture_sampler, _e11);
+    seen.colour = _e14.xyz;
+    const float2 _e17 = ltc_lobe_value(surface, lobe, _e9);
+    seen.value = _e17;
+    LtcSeen _e18 = seen;
+    const LtcSeen ltcseen = _e18;
+    return ltcseen;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_GGX && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
+// What a sum of lobes sees of a rectangle that shows a picture; see ltc_rectangle_lookup.
+LtcSeen ltc_quad_picture(LtcSurface surface, LtcQuad quad, LtcLobes lobes, float3 a, float3 b, float3 d, Texture2D<float4> picture, SamplerState picture_sampler, float2 texels)
+{
+    LtcSeen seen = (LtcSeen)0;
+    LtcLobe lobe = (LtcLobe)0;
+    LtcShape shape = (LtcShape)0;
+    int index = int(1);
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        const LtcSeen _e13 = ltc_lobe_picture(surface, quad, lobes.first, a, b, d, picture, picture_sampler, texels);
+        seen = _e13;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        lobe = lobes.first;
+        shape = lobes.second;
+        while(true) {
+            LtcLobe _e21 = lobe;
+            const LtcSeen _e22 = ltc_lobe_picture(surface, quad, _e21, a, b, d, picture, picture_sampler, texels);
+            float2 _e24 = seen.value;
+            seen.value = (_e24 + _e22.value);
+            float3 _e28 = seen.colour;
+            float3 _e31 = seen.colour;
+            float _e37 = seen.value.x;
+            seen.colour = (_e28 + ((_e22.colour - _e31) * (_e22.value.x / max(_e37, LTC_TINY))));
+            int _e43 = index;
+            if ((_e43 >= lobes.count)) {
+                break;
+            }
+            LtcShape _e46 = shape;
+            const LtcLobe _e47 = ltc_shape_lobe(surface, _e46);
+            lobe = _e47;
+#if LTC_THIRD_LOBE
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+#endif
+            int _e50 = index;
+            index = asint(asuint(_e50) + asuint(int(1)));
+        }
+    }
+#endif
+    LtcSeen _e53 = seen;
+    const LtcSeen ltcseen = _e53;
+    return ltcseen;
 }
 #endif
 
@@ -2616,8 +3102,8 @@ LtcAcross ltc_cone_across(LtcCone cone)
     float scale = (1.0 / max((u_square + v_square), LTC_TINY));
     const float2 _e95 = ltc_half_turn(((0.5 * scale) * (u_square - v_square)), (scale * product));
     float3 wide = ((u * _e95.x) + (v * _e95.y));
-    float3 first_4 = ((wide * w) * inverse_root);
-    across.first = (first_4 * rsqrt(max(dot(first_4, first_4), LTC_TINY)));
+    float3 first_7 = ((wide * w) * inverse_root);
+    across.first = (first_7 * rsqrt(max(dot(first_7, first_7), LTC_TINY)));
     across.first_value = (((a_square * wide.x) * wide.x) + ((b_square * wide.y) * wide.y));
     float3 _e123 = across.first;
     across.second = cross(cone.axis, _e123);
@@ -2908,6 +3394,55 @@ float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN)
+// The parts (specular, fresnel) that a sum of lobes reflects of a disk of unit radiance.
+float2 ltc_disk_specular(LtcSurface surface, LtcDisk disk, LtcLobes lobes)
+{
+    float2 value = (0.0).xx;
+    LtcLobe lobe = (LtcLobe)0;
+    LtcShape shape = (LtcShape)0;
+    int index = int(1);
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        const float3 _e10 = ltc_disk_lobe(disk, lobes.first);
+        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        value = _e11;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        lobe = lobes.first;
+        shape = lobes.second;
+        while(true) {
+            float2 _e19 = value;
+            LtcLobe _e20 = lobe;
+            LtcLobe _e21 = lobe;
+            const float3 _e22 = ltc_disk_lobe(disk, _e21);
+            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            value = (_e19 + _e23);
+            int _e25 = index;
+            if ((_e25 >= lobes.count)) {
+                break;
+            }
+            LtcShape _e28 = shape;
+            const LtcLobe _e29 = ltc_shape_lobe(surface, _e28);
+            lobe = _e29;
+#if LTC_THIRD_LOBE
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+#endif
+            int _e32 = index;
+            index = asint(asuint(_e32) + asuint(int(1)));
+        }
+    }
+#endif
+    float2 _e35 = value;
+    return _e35;
+}
+#endif
+
 #if LTC_DISK
 // The value (diffuse, specular, fresnel) of an elliptical disk light around `centre` with the semi-axes `half_x` and
 // `half_y`, any two conjugate half-diameters. It emits to the side of their cross product (to both with `two_sided`).
@@ -2915,9 +3450,9 @@ float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
 // Error of the form factor against exact arithmetic: at most 1e-6, 2e-6 for a disk that all but touches the surface;
 // at most 1e-4 of its value for one whose size is 1e-5 to a tenth of its distance. Where the rim itself passes by
 // closely, 6e-7 times the ratio of the disk's size to that distance takes the place of 1e-6.
-float3 ltc_disk(LtcSurface surface, LtcLobe lobe, float3 centre, float3 half_x, float3 half_y, bool two_sided)
+float3 ltc_disk(LtcSurface surface, LtcLobes lobes, float3 centre, float3 half_x, float3 half_y, bool two_sided)
 {
-    float3 toward = (0.0).xxx;
+    float2 specular = (0.0).xx;
 
     const LtcDisk _e6 = ltc_disk_begin(surface, centre, half_x, half_y, two_sided);
     if (!(_e6.reaches)) {
@@ -2925,14 +3460,13 @@ float3 ltc_disk(LtcSurface surface, LtcLobe lobe, float3 centre, float3 half_x, 
     }
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e15 = ltc_disk_lobe(_e6, lobe);
-        toward = _e15;
+        const float2 _e15 = ltc_disk_specular(surface, _e6, lobes);
+        specular = _e15;
     }
 #endif
     const float _e16 = ltc_disk_diffuse(_e6);
-    float3 _e17 = toward;
-    const float3 _e18 = ltc_value(surface, lobe, _e16, _e17);
-    return _e18;
+    float2 _e17 = specular;
+    return float3(_e16, _e17);
 }
 #endif
 
@@ -2941,7 +3475,7 @@ float3 ltc_disk(LtcSurface surface, LtcLobe lobe, float3 centre, float3 half_x, 
 LtcSphere ltc_sphere_begin(LtcSurface surface, float3 centre_4, float radius)
 {
     LtcSphere sphere = (LtcSphere)0;
-    LtcDisk disk_3 = (LtcDisk)0;
+    LtcDisk disk_4 = (LtcDisk)0;
 
     float3 away_far = ((centre_4 * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
     float radius_far = (abs(radius) * LTC_HEADROOM);
@@ -2960,23 +3494,23 @@ LtcSphere ltc_sphere_begin(LtcSurface surface, float3 centre_4, float radius)
     float p = (-1.0 / (side + w.z));
     float q = ((w.x * w.y) * p);
     sphere.inside = (ball >= distance_);
-    disk_3.half_x = float3((1.0 + (((side * w.x) * w.x) * p)), (side * q), (-(side) * w.x));
-    disk_3.half_y = float3(q, (side + ((w.y * w.y) * p)), -(w.y));
-    disk_3.size = sine;
-    disk_3.centre = (w * cosine);
-    disk_3.normal = w;
-    disk_3.volume = cosine;
-    float3 _e87 = disk_3.half_x;
-    float3 _e89 = disk_3.half_y;
-    float3 _e91 = disk_3.centre;
+    disk_4.half_x = float3((1.0 + (((side * w.x) * w.x) * p)), (side * q), (-(side) * w.x));
+    disk_4.half_y = float3(q, (side + ((w.y * w.y) * p)), -(w.y));
+    disk_4.size = sine;
+    disk_4.centre = (w * cosine);
+    disk_4.normal = w;
+    disk_4.volume = cosine;
+    float3 _e87 = disk_4.half_x;
+    float3 _e89 = disk_4.half_y;
+    float3 _e91 = disk_4.centre;
     const LtcCut _e92 = ltc_cut(surface.normal, _e87, _e89, sine, _e91);
-    disk_3.cut = _e92;
-    float _e96 = disk_3.cut.offset;
-    disk_3.clipped = (_e96 > -1.0);
+    disk_4.cut = _e92;
+    float _e96 = disk_4.cut.offset;
+    disk_4.clipped = (_e96 > -1.0);
     bool _e101 = sphere.inside;
-    float _e104 = disk_3.cut.offset;
-    disk_3.reaches = (_e101 | ((_e104 < 1.0) & (cosine > 0.0)));
-    LtcDisk _e112 = disk_3;
+    float _e104 = disk_4.cut.offset;
+    disk_4.reaches = (_e101 | ((_e104 < 1.0) & (cosine > 0.0)));
+    LtcDisk _e112 = disk_4;
     sphere.disk = _e112;
     LtcSphere _e113 = sphere;
     const LtcSphere ltcsphere = _e113;
@@ -2992,15 +3526,15 @@ float ltc_sphere_diffuse(LtcSphere sphere)
 {
     float value = (float)0;
 
-    LtcDisk disk_4 = sphere.disk;
-    float tilt = dot(disk_4.cut.normal, disk_4.normal);
-    value = ((disk_4.size * disk_4.size) * tilt);
-    if (disk_4.clipped) {
-        const float _e17 = ltc_cap(disk_4.size, tilt, disk_4.cut.offset, disk_4.cut.reach);
+    LtcDisk disk_5 = sphere.disk;
+    float tilt = dot(disk_5.cut.normal, disk_5.normal);
+    value = ((disk_5.size * disk_5.size) * tilt);
+    if (disk_5.clipped) {
+        const float _e17 = ltc_cap(disk_5.size, tilt, disk_5.cut.offset, disk_5.cut.reach);
         value = _e17;
     }
     float _e18 = value;
-    return (sphere.inside ? 1.0 : (disk_4.reaches ? saturate(_e18) : 0.0));
+    return (sphere.inside ? 1.0 : (disk_5.reaches ? saturate(_e18) : 0.0));
 }
 #endif
 
@@ -3017,6 +3551,55 @@ float3 ltc_sphere_lobe(LtcSphere sphere, LtcLobe lobe)
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
+// The parts (specular, fresnel) that a sum of lobes reflects of a sphere of unit radiance.
+float2 ltc_sphere_specular(LtcSurface surface, LtcSphere sphere, LtcLobes lobes)
+{
+    float2 value = (0.0).xx;
+    LtcLobe lobe = (LtcLobe)0;
+    LtcShape shape = (LtcShape)0;
+    int index = int(1);
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        const float3 _e10 = ltc_sphere_lobe(sphere, lobes.first);
+        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        value = _e11;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        lobe = lobes.first;
+        shape = lobes.second;
+        while(true) {
+            float2 _e19 = value;
+            LtcLobe _e20 = lobe;
+            LtcLobe _e21 = lobe;
+            const float3 _e22 = ltc_sphere_lobe(sphere, _e21);
+            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            value = (_e19 + _e23);
+            int _e25 = index;
+            if ((_e25 >= lobes.count)) {
+                break;
+            }
+            LtcShape _e28 = shape;
+            const LtcLobe _e29 = ltc_shape_lobe(surface, _e28);
+            lobe = _e29;
+#if LTC_THIRD_LOBE
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+#endif
+            int _e32 = index;
+            index = asint(asuint(_e32) + asuint(int(1)));
+        }
+    }
+#endif
+    float2 _e35 = value;
+    return _e35;
+}
+#endif
+
 #if LTC_SPHERE
 // The value (diffuse, specular, fresnel) of a sphere light, which emits outwards, and inwards to a surface point
 // that it contains.
@@ -3024,9 +3607,9 @@ float3 ltc_sphere_lobe(LtcSphere sphere, LtcLobe lobe)
 // Error of the form factor against exact arithmetic: at most 1e-6, and 1e-4 of its value for a sphere whose radius is
 // less than a twentieth of its distance. At the distance g, in radii, from the sphere 1e-7 / sqrt(g) takes the place
 // of 1e-6: so much does the rounding of that distance move the sphere's outline.
-float3 ltc_sphere(LtcSurface surface, LtcLobe lobe, float3 centre, float radius)
+float3 ltc_sphere(LtcSurface surface, LtcLobes lobes, float3 centre, float radius)
 {
-    float3 toward = (0.0).xxx;
+    float2 specular = (0.0).xx;
 
     const LtcSphere _e4 = ltc_sphere_begin(surface, centre, radius);
     if (!(_e4.disk.reaches)) {
@@ -3034,14 +3617,13 @@ float3 ltc_sphere(LtcSurface surface, LtcLobe lobe, float3 centre, float radius)
     }
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e14 = ltc_sphere_lobe(_e4, lobe);
-        toward = _e14;
+        const float2 _e14 = ltc_sphere_specular(surface, _e4, lobes);
+        specular = _e14;
     }
 #endif
     const float _e15 = ltc_sphere_diffuse(_e4);
-    float3 _e16 = toward;
-    const float3 _e17 = ltc_value(surface, lobe, _e15, _e16);
-    return _e17;
+    float2 _e16 = specular;
+    return float3(_e15, _e16);
 }
 #endif
 
@@ -3351,41 +3933,42 @@ LtcShading ltc_shading(float3 position, float3 normal, float3 view, LtcMaterial 
         const float2 _e19 = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         const LtcAnisotropy _e23 = ltc_anisotropy(_e9, material.grain, _e19.x, _e19.y);
         const LtcLobe _e26 = ltc_anisotropic_lobe_from_table(_e9, _e23, table, table_sampler, table_size, layers.anisotropic);
-        shading.specular = _e26;
+        const LtcLobes _e27 = ltc_lobes_of(_e26);
+        shading.specular = _e27;
     } else {
 #else
     {
 #endif
 #if LTC_GGX
         if (ltc_use_ggx) {
-            const LtcLobe _e29 = ltc_lobe_from_table(_e9, table, table_sampler, table_size);
-            shading.specular = _e29;
+            const LtcLobes _e31 = ltc_lobes_from_table(_e9, table, table_sampler, table_size, layers.lobes);
+            shading.specular = _e31;
         }
 #endif
     }
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        const LtcSurface _e33 = ltc_surface_with_roughness(_e9, material.coat_roughness);
-        const LtcLobe _e34 = ltc_lobe_from_table(_e33, table, table_sampler, table_size);
-        shading.coat = _e34;
+        const LtcSurface _e35 = ltc_surface_with_roughness(_e9, material.coat_roughness);
+        const LtcLobes _e37 = ltc_lobes_from_table(_e35, table, table_sampler, table_size, layers.lobes);
+        shading.coat = _e37;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        const LtcSurface _e38 = ltc_surface_with_roughness(_e9, material.sheen_roughness);
-        const LtcLobe _e40 = ltc_sheen_lobe_from_table(_e38, table, table_sampler, table_size, layers.sheen);
-        shading.sheen = _e40;
+        const LtcSurface _e41 = ltc_surface_with_roughness(_e9, material.sheen_roughness);
+        const LtcLobe _e43 = ltc_sheen_lobe_from_table(_e41, table, table_sampler, table_size, layers.sheen);
+        shading.sheen = _e43;
     }
 #endif
 #if LTC_ROUGH_DIFFUSE
     if (ltc_use_rough_diffuse) {
-        const LtcSurface _e44 = ltc_surface_with_roughness(_e9, material.diffuse_roughness);
-        const LtcLobe _e46 = ltc_diffuse_lobe_from_table(_e44, table, table_sampler, table_size, layers.diffuse);
-        shading.rough = _e46;
+        const LtcSurface _e47 = ltc_surface_with_roughness(_e9, material.diffuse_roughness);
+        const LtcLobe _e49 = ltc_diffuse_lobe_from_table(_e47, table, table_sampler, table_size, layers.diffuse);
+        shading.rough = _e49;
     }
 #endif
-    LtcShading _e47 = shading;
-    const LtcShading ltcshading = _e47;
+    LtcShading _e50 = shading;
+    const LtcShading ltcshading = _e50;
     return ltcshading;
 }
 
@@ -3409,35 +3992,33 @@ LtcReceived ltc_shading_quad(LtcShading shading, float3 a, float3 b, float3 c, f
         received.diffuse = _e12;
 #if LTC_GGX
         if (ltc_use_ggx) {
-            const float3 _e18 = ltc_quad_lobe(_e8, shading.specular);
-            const float2 _e19 = ltc_lobe_value(shading.surface, shading.specular, _e18);
-            received.specular = _e19;
+            const float2 _e17 = ltc_quad_specular(shading.surface, _e8, shading.specular);
+            received.specular = _e17;
         }
 #endif
 #if LTC_CLEARCOAT
         if (ltc_use_clearcoat) {
-            const float3 _e25 = ltc_quad_lobe(_e8, shading.coat);
-            const float2 _e26 = ltc_lobe_value(shading.surface, shading.coat, _e25);
-            received.coat = _e26;
+            const float2 _e22 = ltc_quad_specular(shading.surface, _e8, shading.coat);
+            received.coat = _e22;
         }
 #endif
 #if LTC_SHEEN
         if (ltc_use_sheen) {
-            const float3 _e31 = ltc_quad_lobe(_e8, shading.sheen);
-            const float _e32 = ltc_plain_value(shading.sheen, _e31);
-            received.sheen = _e32;
+            const float3 _e27 = ltc_quad_lobe(_e8, shading.sheen);
+            const float _e28 = ltc_plain_value(shading.sheen, _e27);
+            received.sheen = _e28;
         }
 #endif
 #if LTC_ROUGH_DIFFUSE
         if (ltc_use_rough_diffuse) {
-            const float3 _e37 = ltc_quad_lobe(_e8, shading.rough);
-            const float _e38 = ltc_plain_value(shading.rough, _e37);
-            received.rough = _e38;
+            const float3 _e33 = ltc_quad_lobe(_e8, shading.rough);
+            const float _e34 = ltc_plain_value(shading.rough, _e33);
+            received.rough = _e34;
         }
 #endif
     }
-    LtcReceived _e39 = received;
-    const LtcReceived ltcreceived = _e39;
+    LtcReceived _e35 = received;
+    const LtcReceived ltcreceived = _e35;
     return ltcreceived;
 }
 #endif
@@ -3453,34 +4034,32 @@ LtcReceived ltc_shading_disk(LtcShading shading, float3 centre, float3 half_x, f
     received.diffuse = _e9;
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e15 = ltc_disk_lobe(_e7, shading.specular);
-        const float2 _e16 = ltc_lobe_value(shading.surface, shading.specular, _e15);
-        received.specular = _e16;
+        const float2 _e14 = ltc_disk_specular(shading.surface, _e7, shading.specular);
+        received.specular = _e14;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        const float3 _e22 = ltc_disk_lobe(_e7, shading.coat);
-        const float2 _e23 = ltc_lobe_value(shading.surface, shading.coat, _e22);
-        received.coat = _e23;
+        const float2 _e19 = ltc_disk_specular(shading.surface, _e7, shading.coat);
+        received.coat = _e19;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        const float3 _e28 = ltc_disk_lobe(_e7, shading.sheen);
-        const float _e29 = ltc_plain_value(shading.sheen, _e28);
-        received.sheen = _e29;
+        const float3 _e24 = ltc_disk_lobe(_e7, shading.sheen);
+        const float _e25 = ltc_plain_value(shading.sheen, _e24);
+        received.sheen = _e25;
     }
 #endif
 #if LTC_ROUGH_DIFFUSE
     if (ltc_use_rough_diffuse) {
-        const float3 _e34 = ltc_disk_lobe(_e7, shading.rough);
-        const float _e35 = ltc_plain_value(shading.rough, _e34);
-        received.rough = _e35;
+        const float3 _e30 = ltc_disk_lobe(_e7, shading.rough);
+        const float _e31 = ltc_plain_value(shading.rough, _e30);
+        received.rough = _e31;
     }
 #endif
-    LtcReceived _e36 = received;
-    const LtcReceived ltcreceived = _e36;
+    LtcReceived _e32 = received;
+    const LtcReceived ltcreceived = _e32;
     return ltcreceived;
 }
 #endif
@@ -3496,34 +4075,32 @@ LtcReceived ltc_shading_sphere(LtcShading shading, float3 centre, float radius)
     received.diffuse = _e7;
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e13 = ltc_sphere_lobe(_e5, shading.specular);
-        const float2 _e14 = ltc_lobe_value(shading.surface, shading.specular, _e13);
-        received.specular = _e14;
+        const float2 _e12 = ltc_sphere_specular(shading.surface, _e5, shading.specular);
+        received.specular = _e12;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        const float3 _e20 = ltc_sphere_lobe(_e5, shading.coat);
-        const float2 _e21 = ltc_lobe_value(shading.surface, shading.coat, _e20);
-        received.coat = _e21;
+        const float2 _e17 = ltc_sphere_specular(shading.surface, _e5, shading.coat);
+        received.coat = _e17;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        const float3 _e26 = ltc_sphere_lobe(_e5, shading.sheen);
-        const float _e27 = ltc_plain_value(shading.sheen, _e26);
-        received.sheen = _e27;
+        const float3 _e22 = ltc_sphere_lobe(_e5, shading.sheen);
+        const float _e23 = ltc_plain_value(shading.sheen, _e22);
+        received.sheen = _e23;
     }
 #endif
 #if LTC_ROUGH_DIFFUSE
     if (ltc_use_rough_diffuse) {
-        const float3 _e32 = ltc_sphere_lobe(_e5, shading.rough);
-        const float _e33 = ltc_plain_value(shading.rough, _e32);
-        received.rough = _e33;
+        const float3 _e28 = ltc_sphere_lobe(_e5, shading.rough);
+        const float _e29 = ltc_plain_value(shading.rough, _e28);
+        received.rough = _e29;
     }
 #endif
-    LtcReceived _e34 = received;
-    const LtcReceived ltcreceived = _e34;
+    LtcReceived _e30 = received;
+    const LtcReceived ltcreceived = _e30;
     return ltcreceived;
 }
 #endif
@@ -3539,34 +4116,32 @@ LtcReceived ltc_shading_tube(LtcShading shading, float3 start, float3 end, float
     received.diffuse = _e10;
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e16 = ltc_tube_lobe(_e7, shading.specular);
-        const float2 _e17 = ltc_lobe_value(shading.surface, shading.specular, _e16);
-        received.specular = _e17;
+        const float2 _e15 = ltc_tube_specular(shading.surface, _e7, shading.specular);
+        received.specular = _e15;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        const float3 _e23 = ltc_tube_lobe(_e7, shading.coat);
-        const float2 _e24 = ltc_lobe_value(shading.surface, shading.coat, _e23);
-        received.coat = _e24;
+        const float2 _e20 = ltc_tube_specular(shading.surface, _e7, shading.coat);
+        received.coat = _e20;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        const float3 _e29 = ltc_tube_lobe(_e7, shading.sheen);
-        const float _e30 = ltc_plain_value(shading.sheen, _e29);
-        received.sheen = _e30;
+        const float3 _e25 = ltc_tube_lobe(_e7, shading.sheen);
+        const float _e26 = ltc_plain_value(shading.sheen, _e25);
+        received.sheen = _e26;
     }
 #endif
 #if LTC_ROUGH_DIFFUSE
     if (ltc_use_rough_diffuse) {
-        const float3 _e35 = ltc_tube_lobe(_e7, shading.rough);
-        const float _e36 = ltc_plain_value(shading.rough, _e35);
-        received.rough = _e36;
+        const float3 _e31 = ltc_tube_lobe(_e7, shading.rough);
+        const float _e32 = ltc_plain_value(shading.rough, _e31);
+        received.rough = _e32;
     }
 #endif
-    LtcReceived _e37 = received;
-    const LtcReceived ltcreceived = _e37;
+    LtcReceived _e33 = received;
+    const LtcReceived ltcreceived = _e33;
     return ltcreceived;
 }
 #endif
@@ -3579,9 +4154,9 @@ LtcShadingPolygon ltc_shading_polygon_begin(LtcShading shading, float3 corner)
 
     const LtcOutline _e5 = ltc_outline_begin(shading.surface, corner);
     polygon.outline = _e5;
-    const LtcOutlineLobe _e7 = ltc_outline_lobe_begin();
+    const LtcOutlineLobes _e7 = ltc_outline_lobes_begin();
     polygon.specular = _e7;
-    const LtcOutlineLobe _e9 = ltc_outline_lobe_begin();
+    const LtcOutlineLobes _e9 = ltc_outline_lobes_begin();
     polygon.coat = _e9;
     const LtcOutlineLobe _e11 = ltc_outline_lobe_begin();
     polygon.sheen = _e11;
@@ -3597,55 +4172,55 @@ LtcShadingPolygon ltc_shading_polygon_begin(LtcShading shading, float3 corner)
 // Adds the next vertex.
 void ltc_shading_polygon_add(inout LtcShadingPolygon polygon, LtcShading shading, float3 corner)
 {
-    LtcOutline outline_6 = (LtcOutline)0;
-    LtcOutlineLobe specular_1 = (LtcOutlineLobe)0;
-    LtcOutlineLobe coat_2 = (LtcOutlineLobe)0;
+    LtcOutline outline_8 = (LtcOutline)0;
+    LtcOutlineLobes specular_5 = (LtcOutlineLobes)0;
+    LtcOutlineLobes coat_2 = (LtcOutlineLobes)0;
     LtcOutlineLobe sheen_1 = (LtcOutlineLobe)0;
     LtcOutlineLobe rough = (LtcOutlineLobe)0;
 
     LtcOutline _e4 = polygon.outline;
-    outline_6 = _e4;
-    ltc_outline_add(outline_6, shading.surface, corner);
-    LtcOutline _e8 = outline_6;
+    outline_8 = _e4;
+    ltc_outline_add(outline_8, shading.surface, corner);
+    LtcOutline _e8 = outline_8;
     polygon.outline = _e8;
 #if LTC_GGX
     if (ltc_use_ggx) {
-        LtcOutlineLobe _e11 = polygon.specular;
-        specular_1 = _e11;
-        LtcOutline _e13 = outline_6;
-        ltc_outline_lobe_add(specular_1, _e13, shading.specular);
-        LtcOutlineLobe _e16 = specular_1;
-        polygon.specular = _e16;
+        LtcOutlineLobes _e11 = polygon.specular;
+        specular_5 = _e11;
+        LtcOutline _e14 = outline_8;
+        ltc_outline_lobes_add(specular_5, shading.surface, _e14, shading.specular);
+        LtcOutlineLobes _e17 = specular_5;
+        polygon.specular = _e17;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        LtcOutlineLobe _e19 = polygon.coat;
-        coat_2 = _e19;
-        LtcOutline _e21 = outline_6;
-        ltc_outline_lobe_add(coat_2, _e21, shading.coat);
-        LtcOutlineLobe _e24 = coat_2;
-        polygon.coat = _e24;
+        LtcOutlineLobes _e20 = polygon.coat;
+        coat_2 = _e20;
+        LtcOutline _e23 = outline_8;
+        ltc_outline_lobes_add(coat_2, shading.surface, _e23, shading.coat);
+        LtcOutlineLobes _e26 = coat_2;
+        polygon.coat = _e26;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        LtcOutlineLobe _e27 = polygon.sheen;
-        sheen_1 = _e27;
-        LtcOutline _e29 = outline_6;
-        ltc_outline_lobe_add(sheen_1, _e29, shading.sheen);
-        LtcOutlineLobe _e32 = sheen_1;
-        polygon.sheen = _e32;
+        LtcOutlineLobe _e29 = polygon.sheen;
+        sheen_1 = _e29;
+        LtcOutline _e31 = outline_8;
+        ltc_outline_lobe_add(sheen_1, _e31, shading.sheen);
+        LtcOutlineLobe _e34 = sheen_1;
+        polygon.sheen = _e34;
     }
 #endif
 #if LTC_ROUGH_DIFFUSE
     if (ltc_use_rough_diffuse) {
-        LtcOutlineLobe _e35 = polygon.rough;
-        rough = _e35;
-        LtcOutline _e37 = outline_6;
-        ltc_outline_lobe_add(rough, _e37, shading.rough);
-        LtcOutlineLobe _e40 = rough;
-        polygon.rough = _e40;
+        LtcOutlineLobe _e37 = polygon.rough;
+        rough = _e37;
+        LtcOutline _e39 = outline_8;
+        ltc_outline_lobe_add(rough, _e39, shading.rough);
+        LtcOutlineLobe _e42 = rough;
+        polygon.rough = _e42;
         return;
     } else {
 #else
@@ -3664,45 +4239,43 @@ LtcReceived ltc_shading_polygon_end(inout LtcShadingPolygon polygon, LtcShading 
 {
     LtcReceived received = (LtcReceived)0;
 
-    float3 first_7 = polygon.outline.first;
-    ltc_shading_polygon_add(polygon, shading, first_7);
-    LtcOutline outline_7 = polygon.outline;
-    const float _e10 = ltc_outline_diffuse(outline_7, two_sided);
+    float3 first_10 = polygon.outline.first;
+    ltc_shading_polygon_add(polygon, shading, first_10);
+    LtcOutline outline_9 = polygon.outline;
+    const float _e10 = ltc_outline_diffuse(outline_9, two_sided);
     received.diffuse = _e10;
 #if LTC_GGX
     if (ltc_use_ggx) {
-        LtcOutlineLobe _e16 = polygon.specular;
-        const float3 _e17 = ltc_outline_lobe(outline_7, _e16, two_sided);
-        const float2 _e18 = ltc_lobe_value(shading.surface, shading.specular, _e17);
-        received.specular = _e18;
+        LtcOutlineLobes _e15 = polygon.specular;
+        const float2 _e17 = ltc_outline_specular(shading.surface, outline_9, _e15, shading.specular, two_sided);
+        received.specular = _e17;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        LtcOutlineLobe _e24 = polygon.coat;
-        const float3 _e25 = ltc_outline_lobe(outline_7, _e24, two_sided);
-        const float2 _e26 = ltc_lobe_value(shading.surface, shading.coat, _e25);
-        received.coat = _e26;
+        LtcOutlineLobes _e22 = polygon.coat;
+        const float2 _e24 = ltc_outline_specular(shading.surface, outline_9, _e22, shading.coat, two_sided);
+        received.coat = _e24;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        LtcOutlineLobe _e31 = polygon.sheen;
-        const float3 _e32 = ltc_outline_lobe(outline_7, _e31, two_sided);
-        const float _e33 = ltc_plain_value(shading.sheen, _e32);
-        received.sheen = _e33;
+        LtcOutlineLobe _e29 = polygon.sheen;
+        const float3 _e30 = ltc_outline_lobe(outline_9, _e29, two_sided);
+        const float _e31 = ltc_plain_value(shading.sheen, _e30);
+        received.sheen = _e31;
     }
 #endif
 #if LTC_ROUGH_DIFFUSE
     if (ltc_use_rough_diffuse) {
-        LtcOutlineLobe _e38 = polygon.rough;
-        const float3 _e39 = ltc_outline_lobe(outline_7, _e38, two_sided);
-        const float _e40 = ltc_plain_value(shading.rough, _e39);
-        received.rough = _e40;
+        LtcOutlineLobe _e36 = polygon.rough;
+        const float3 _e37 = ltc_outline_lobe(outline_9, _e36, two_sided);
+        const float _e38 = ltc_plain_value(shading.rough, _e37);
+        received.rough = _e38;
     }
 #endif
-    LtcReceived _e41 = received;
-    const LtcReceived ltcreceived = _e41;
+    LtcReceived _e39 = received;
+    const LtcReceived ltcreceived = _e39;
     return ltcreceived;
 }
 #endif
@@ -3714,7 +4287,7 @@ LtcReceived ltc_shading_polygon_end(inout LtcShadingPolygon polygon, LtcShading 
 float3 ltc_reflected(LtcShading shading, LtcMaterial material, LtcReceived received)
 {
     float3 radiance = (float3)0;
-    float3 specular_2 = (float3)0;
+    float3 specular_6 = (float3)0;
 
     radiance = (material.base_colour * received.diffuse);
 #if LTC_ROUGH_DIFFUSE
@@ -3729,35 +4302,37 @@ float3 ltc_reflected(LtcShading shading, LtcMaterial material, LtcReceived recei
     if (ltc_use_ggx) {
         float3 value = float3(received.diffuse, received.specular);
         const float3 _e29 = ltc_reflectance(value, material.normal_reflectance, material.grazing_reflectance);
-        specular_2 = _e29;
+        specular_6 = _e29;
 #if LTC_ENERGY_COMPENSATION
         if (ltc_use_energy_compensation) {
-            float3 _e32 = specular_2;
-            const float3 _e35 = ltc_energy_compensation(shading.specular, material.normal_reflectance);
-            specular_2 = (_e32 * _e35);
+            float3 _e32 = specular_6;
+            const LtcLobe _e34 = ltc_lobes_together(shading.specular);
+            const float3 _e36 = ltc_energy_compensation(_e34, material.normal_reflectance);
+            specular_6 = (_e32 * _e36);
         }
 #endif
-        float3 _e37 = radiance;
-        float3 _e38 = specular_2;
-        radiance = (_e37 + _e38);
+        float3 _e38 = radiance;
+        float3 _e39 = specular_6;
+        radiance = (_e38 + _e39);
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        float3 _e41 = radiance;
-        const float3 _e48 = ltc_sheen_over(_e41, shading.sheen, float3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
-        radiance = _e48;
+        float3 _e42 = radiance;
+        const float3 _e49 = ltc_sheen_over(_e42, shading.sheen, float3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
+        radiance = _e49;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        float3 _e50 = radiance;
-        const float3 _e57 = ltc_coat_over(_e50, shading.coat, float3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
-        radiance = _e57;
+        float3 _e51 = radiance;
+        const LtcLobe _e53 = ltc_lobes_together(shading.coat);
+        const float3 _e59 = ltc_coat_over(_e51, _e53, float3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = _e59;
     }
 #endif
-    float3 _e58 = radiance;
-    return _e58;
+    float3 _e60 = radiance;
+    return _e60;
 }
 
 #if LTC_TEXTURED
@@ -3767,7 +4342,7 @@ float3 ltc_reflected_picture(LtcShading shading, LtcMaterial material, float3 a,
 {
     LtcReceived diffuse = (LtcReceived)0;
     float3 radiance = (float3)0;
-    LtcReceived specular_3 = (LtcReceived)0;
+    LtcReceived specular_7 = (LtcReceived)0;
     LtcReceived coat_3 = (LtcReceived)0;
     LtcReceived sheen_2 = (LtcReceived)0;
 
@@ -3792,45 +4367,39 @@ float3 ltc_reflected_picture(LtcShading shading, LtcMaterial material, float3 a,
     radiance = (_e32 * _e33.xyz);
 #if LTC_GGX
     if (ltc_use_ggx) {
-        const float3 _e39 = ltc_quad_lobe(_e11, shading.specular);
-        const float2 _e44 = ltc_lobe_value(shading.surface, shading.specular, _e39);
-        specular_3.specular = _e44;
-        const LtcLookup _e48 = ltc_rectangle_lookup(shading.surface, shading.specular, a, b, d, _e39, texels, false);
-        float3 _e49 = radiance;
-        LtcReceived _e50 = specular_3;
-        const float3 _e51 = ltc_reflected(shading, material, _e50);
-        const float4 _e52 = ltc_texture_fetch(picture, picture_sampler, _e48);
-        radiance = (_e49 + (_e51 * _e52.xyz));
+        const LtcSeen _e40 = ltc_quad_picture(shading.surface, _e11, shading.specular, a, b, d, picture, picture_sampler, texels);
+        specular_7.specular = _e40.value;
+        float3 _e44 = radiance;
+        LtcReceived _e45 = specular_7;
+        const float3 _e46 = ltc_reflected(shading, material, _e45);
+        radiance = (_e44 + (_e46 * _e40.colour));
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        const float3 _e58 = ltc_quad_lobe(_e11, shading.coat);
-        const float2 _e63 = ltc_lobe_value(shading.surface, shading.coat, _e58);
-        coat_3.coat = _e63;
-        const LtcLookup _e67 = ltc_rectangle_lookup(shading.surface, shading.coat, a, b, d, _e58, texels, false);
-        float3 _e68 = radiance;
-        LtcReceived _e69 = coat_3;
-        const float3 _e70 = ltc_reflected(shading, material, _e69);
-        const float4 _e71 = ltc_texture_fetch(picture, picture_sampler, _e67);
-        radiance = (_e68 + (_e70 * _e71.xyz));
+        const LtcSeen _e53 = ltc_quad_picture(shading.surface, _e11, shading.coat, a, b, d, picture, picture_sampler, texels);
+        coat_3.coat = _e53.value;
+        float3 _e57 = radiance;
+        LtcReceived _e58 = coat_3;
+        const float3 _e59 = ltc_reflected(shading, material, _e58);
+        radiance = (_e57 + (_e59 * _e53.colour));
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        const float3 _e77 = ltc_quad_lobe(_e11, shading.sheen);
-        const float _e81 = ltc_plain_value(shading.sheen, _e77);
-        sheen_2.sheen = _e81;
-        const LtcLookup _e85 = ltc_rectangle_lookup(shading.surface, shading.sheen, a, b, d, _e77, texels, false);
-        float3 _e86 = radiance;
-        LtcReceived _e87 = sheen_2;
-        const float3 _e88 = ltc_reflected(shading, material, _e87);
-        const float4 _e89 = ltc_texture_fetch(picture, picture_sampler, _e85);
-        radiance = (_e86 + (_e88 * _e89.xyz));
+        const float3 _e65 = ltc_quad_lobe(_e11, shading.sheen);
+        const float _e69 = ltc_plain_value(shading.sheen, _e65);
+        sheen_2.sheen = _e69;
+        const LtcLookup _e73 = ltc_rectangle_lookup(shading.surface, shading.sheen, a, b, d, _e65, texels, false);
+        float3 _e74 = radiance;
+        LtcReceived _e75 = sheen_2;
+        const float3 _e76 = ltc_reflected(shading, material, _e75);
+        const float4 _e77 = ltc_texture_fetch(picture, picture_sampler, _e73);
+        radiance = (_e74 + (_e76 * _e77.xyz));
     }
 #endif
-    float3 _e93 = radiance;
-    return _e93;
+    float3 _e81 = radiance;
+    return _e81;
 }
 #endif
 

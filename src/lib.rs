@@ -70,6 +70,13 @@ pub const TABLE_SHEEN: &[u8] = include_bytes!("../table/ltc_sheen.bin");
 /// of the model of Portsmouth, Kutz and Hill (2025).
 pub const TABLE_DIFFUSE: &[u8] = include_bytes!("../table/ltc_diffuse.bin");
 
+/// The three layers that the include reads in place of [`TABLE_NATIVE`] for a sum of two lobes: see `ltc_lobes_from_table` in
+/// the include.
+pub const TABLE_TWO_LOBES: &[u8] = include_bytes!("../table/ltc_two_lobes.bin");
+
+/// The five layers for a sum of three lobes.
+pub const TABLE_THREE_LOBES: &[u8] = include_bytes!("../table/ltc_three_lobes.bin");
+
 /// Two further layers of that array, for anisotropic GGX: see `ltc_anisotropic_lobe` in the include.
 pub const TABLE_ANISOTROPIC: &[u8] = include_bytes!("../table/ltc_anisotropic.bin");
 

@@ -252,26 +252,26 @@ fn choices(include: &str) -> Vec<(String, String)> {
 const USE: &str = "
 #if LTC_QUAD || LTC_POLYGON || LTC_DISK || LTC_SPHERE || LTC_TUBE
     LtcSurface surface = ltc_surface(at, at, at, 0.5);
-    LtcLobe lobe = NO_LOBE;
+    LtcLobes lobes = NO_LOBE;
 #if LTC_GGX
-    lobe = ltc_lobe(surface, AT_FOUR, AT_FOUR);
+    lobes = ltc_lobes_of(ltc_lobe(surface, AT_FOUR, AT_FOUR));
 #endif
 #if LTC_QUAD
-    value += ltc_quad(surface, lobe, at, at, at, at, true);
+    value += ltc_quad(surface, lobes, at, at, at, at, true);
 #endif
 #if LTC_POLYGON
     LtcPolygon polygon = ltc_polygon_begin(surface, at);
-    ltc_polygon_add(POLYGON, surface, lobe, at);
-    value += ltc_polygon_end(POLYGON, surface, lobe, true);
+    ltc_polygon_add(POLYGON, surface, lobes, at);
+    value += ltc_polygon_end(POLYGON, surface, lobes, true);
 #endif
 #if LTC_DISK
-    value += ltc_disk(surface, lobe, at, at, at, true);
+    value += ltc_disk(surface, lobes, at, at, at, true);
 #endif
 #if LTC_SPHERE
-    value += ltc_sphere(surface, lobe, at, 0.5);
+    value += ltc_sphere(surface, lobes, at, 0.5);
 #endif
 #if LTC_TUBE
-    value += ltc_tube(surface, lobe, at, at, 0.5, true);
+    value += ltc_tube(surface, lobes, at, at, 0.5, true);
 #endif
 #endif
 ";
@@ -296,7 +296,7 @@ fn macros_choose_in_glsl() {
             .replace("POLYGON,", "polygon,")
             .replace("AT_FOUR", "vec4(at, 1.0)")
             .replace("KIND", "uint(at.x)");
-        let lobe = "\nLtcLobe no_lobe;\n";
+        let lobe = "\nLtcLobes no_lobe;\n";
         for (choice, macros) in choices(include) {
             let lobe = if name == "include" {
                 format!("#if LTC_QUAD || LTC_POLYGON || LTC_DISK || LTC_SPHERE || LTC_TUBE\n{lobe}#endif\n")
@@ -324,7 +324,7 @@ fn macros_choose_in_hlsl() {
             .replace("POLYGON,", "polygon,")
             .replace("AT_FOUR", "float4(at, 1.0)")
             .replace("KIND", "uint(at.x)")
-            .replace("NO_LOBE", "(LtcLobe)0");
+            .replace("NO_LOBE", "(LtcLobes)0");
         let main = format!(
             "float4 main(float4 position : SV_Position) : SV_Target {{\n    float3 at = position.xyz;\n    float3 value = at;\n{code}    return float4(value, 1.0);\n}}\n"
         );

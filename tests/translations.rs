@@ -168,12 +168,12 @@ layout(location = 0) out vec4 color;
 uniform highp sampler2DArray table;
 void main() {
     LtcSurface surface = ltc_surface(vec3(0.0), vec3(0.0, 0.0, 1.0), gl_FragCoord.xyz, 0.5);
-    LtcLobe lobe = ltc_lobe_from_table(surface, table, 64.0);
+    LtcLobes lobes = ltc_lobes_from_table(surface, table, 64.0, 0);
     LtcPolygon polygon = ltc_polygon_begin(surface, gl_FragCoord.xyz);
-    ltc_polygon_add(polygon, surface, lobe, gl_FragCoord.yzx);
-    ltc_polygon_add(polygon, surface, lobe, gl_FragCoord.zxy);
-    vec3 value = ltc_polygon_end(polygon, surface, lobe, false)
-        + ltc_quad(surface, lobe, gl_FragCoord.xyz, gl_FragCoord.yzx, gl_FragCoord.zxy, gl_FragCoord.xzy, true);
+    ltc_polygon_add(polygon, surface, lobes, gl_FragCoord.yzx);
+    ltc_polygon_add(polygon, surface, lobes, gl_FragCoord.zxy);
+    vec3 value = ltc_polygon_end(polygon, surface, lobes, false)
+        + ltc_quad(surface, lobes, gl_FragCoord.xyz, gl_FragCoord.yzx, gl_FragCoord.zxy, gl_FragCoord.xzy, true);
     color = vec4(ltc_reflectance(value, vec3(0.04), vec3(1.0)), 1.0);
 }
 ";
@@ -207,12 +207,12 @@ Texture2DArray<float4> table : register(t0);
 SamplerState table_sampler : register(s0);
 float4 main(float4 at : SV_Position) : SV_Target {
     LtcSurface surface = ltc_surface((float3)0.0, float3(0.0, 0.0, 1.0), at.xyz, 0.5);
-    LtcLobe lobe = ltc_lobe_from_table(surface, table, table_sampler, 64.0);
+    LtcLobes lobes = ltc_lobes_from_table(surface, table, table_sampler, 64.0, 0);
     LtcPolygon polygon = ltc_polygon_begin(surface, at.xyz);
-    ltc_polygon_add(polygon, surface, lobe, at.yzx);
-    ltc_polygon_add(polygon, surface, lobe, at.zxy);
-    float3 value = ltc_polygon_end(polygon, surface, lobe, false)
-        + ltc_quad(surface, lobe, at.xyz, at.yzx, at.zxy, at.xzy, true);
+    ltc_polygon_add(polygon, surface, lobes, at.yzx);
+    ltc_polygon_add(polygon, surface, lobes, at.zxy);
+    float3 value = ltc_polygon_end(polygon, surface, lobes, false)
+        + ltc_quad(surface, lobes, at.xyz, at.yzx, at.zxy, at.xzy, true);
     return float4(ltc_reflectance(value, (float3)0.04, (float3)1.0), 1.0);
 }
 ";

@@ -328,8 +328,8 @@ fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
     }
     let record = records[invocation.x];
     let surface = ltc_surface(record.position, record.normal, record.view, record.roughness);
-    let lobe = ltc_lobe_from_table(surface, table, table_sampler, f32(textureDimensions(table).x));
-    let value = ltc_tube(surface, lobe, record.start.xyz, record.end.xyz, record.radius, record.caps > 0.0);
+    let lobes = ltc_lobes_from_table(surface, table, table_sampler, f32(textureDimensions(table).x), 0);
+    let value = ltc_tube(surface, lobes, record.start.xyz, record.end.xyz, record.radius, record.caps > 0.0);
     values[invocation.x] = vec4<f32>(value, 0.0);
 }
 ";

@@ -6,7 +6,7 @@ use bytemuck::{Pod, Zeroable};
 use common::Random;
 use glam::{DVec3, Vec3};
 use softbox::device::{Device, Program};
-use softbox::effects::{Effect, Effects};
+use softbox::effects::{Effect, Effects, Quality};
 use softbox::shade::{
     LtcMaterial, LtcReceived, LtcShading, Real, Vector, ltc_disk, ltc_material, ltc_polygon_add,
     ltc_polygon_begin, ltc_polygon_end, ltc_quad, ltc_reflected, ltc_shading, ltc_shading_disk,
@@ -21,9 +21,14 @@ fn table() -> Table {
     Table::default().with(&Table::sheen()).with(&Table::diffuse()).with(AnisotropicTable::default().layers())
 }
 
-/// Everything that is on by default.
-fn everything() -> Effects {
-    Effects::all().without(Effect::CheapHorizon)
+/// The same with what a set of effects reads besides, behind it.
+fn table_for(effects: Effects) -> Table {
+    table().completed(&effects.layers())
+}
+
+/// Everything that is on by default, at each quality level.
+fn everything() -> impl Iterator<Item = Effects> {
+    Quality::ALL.into_iter().map(|level| level.of(Effects::standing()))
 }
 
 /// A material and a light, as `tests/shaders/whole.wgsl` reads them.
@@ -137,11 +142,17 @@ fn received<R: Real>(case: &Case, shading: &LtcShading<R>) -> LtcReceived<R> {
     }
 }
 
-/// With one lobe over Lambert's law a whole surface is what the functions of one lobe say, bit for bit.
+/// With a specular part over Lambert's law a whole surface is what the functions of one light say, bit for bit.
 #[test]
-fn one_lobe_is_what_the_functions_of_one_lobe_say() {
-    let table = table();
-    let effects: Effects = "quad,disk,sphere,tube,polygon+ggx+two-sided,caps".parse().expect("a set");
+fn a_plain_surface_is_what_the_functions_of_one_light_say() {
+    let plain: Effects = "quad,disk,sphere,tube,polygon+ggx+two-sided,caps".parse().expect("a set");
+    for level in Quality::ALL {
+        is_what_the_functions_of_one_light_say(level.of(plain));
+    }
+}
+
+fn is_what_the_functions_of_one_light_say(effects: Effects) {
+    let table = table_for(effects);
     let mut random = Random::new(71);
     let mut lit = 0;
     for index in 0..20_000 {
@@ -154,7 +165,7 @@ fn one_lobe_is_what_the_functions_of_one_lobe_say() {
             wide::<f32>(case.view),
             case.roughness,
         );
-        let lobe = table.lobe(&surface);
+        let lobe = table.lobes(&surface, effects);
         let [a, b, c, d] = [case.a, case.b, case.c, case.d].map(Vec3::from);
         let flag = case.flag != 0;
         let single = match case.kind {
@@ -182,11 +193,12 @@ fn one_lobe_is_what_the_functions_of_one_lobe_say() {
 /// What is reflected of two lights is the sum of what is reflected of each.
 #[test]
 fn reflection_is_linear_in_what_is_received() {
-    let table = table();
+    let levels: Vec<(Effects, Table)> = everything().map(|effects| (effects, table_for(effects))).collect();
     let mut random = Random::new(72);
     for index in 0..5000 {
         let (one, other) = (case(&mut random, index), case(&mut random, index + 1));
-        let shading = shading::<f64>(&one, &table, everything());
+        let (effects, table) = &levels[index % levels.len()];
+        let shading = shading::<f64>(&one, table, *effects);
         let material = material::<f64>(&one);
         let other = Case { position: one.position, ..other };
         let (a, b) = (received(&one, &shading), received(&other, &shading));
@@ -206,14 +218,15 @@ fn reflection_is_linear_in_what_is_received() {
 /// A metal that reflects everything, under all that a material can have, reflects no more than it receives.
 #[test]
 fn nothing_is_brighter_than_the_room() {
-    let table = table();
+    let levels: Vec<(Effects, Table)> = everything().map(|effects| (effects, table_for(effects))).collect();
     let mut random = Random::new(73);
     let mut least = 1.0_f64;
-    for index in 0..3000 {
+    for index in 0..6000 {
+        let (effects, table) = &levels[index % levels.len()];
         let mut case = case(&mut random, index);
         case.base_colour = [0.0; 3];
         case.normal_reflectance = [1.0; 3];
-        let shading = shading::<f64>(&case, &table, everything());
+        let shading = shading::<f64>(&case, table, *effects);
         let material = material::<f64>(&case);
         // From within a sphere there is light from everywhere.
         let room = ltc_shading_sphere(&shading, wide::<f64>(case.position), 10.0);
@@ -229,15 +242,16 @@ fn nothing_is_brighter_than_the_room() {
 #[test]
 fn a_device_shades_what_the_twin_shades() {
     let device = Device::open(wgpu::Backends::VULKAN).unwrap_or_else(|error| panic!("{error}"));
-    let table = table();
     let mut random = Random::new(74);
     let cases: Vec<Case> = (0..20_000).map(|index| case(&mut random, index)).collect();
-    for effects in [
-        everything(),
-        everything().without(Effect::Anisotropic),
-        "quad,disk,sphere,tube,polygon+sheen,rough-diffuse+two-sided,caps".parse().expect("a set"),
-        "quad,disk,sphere,tube,polygon+two-sided,caps".parse().expect("a set"),
-    ] {
+    let without = everything().map(|effects| effects.without(Effect::Anisotropic));
+    let matte = [
+        "quad,disk,sphere,tube,polygon+sheen,rough-diffuse+two-sided,caps",
+        "quad,disk,sphere,tube,polygon+two-sided,caps",
+    ];
+    let matte = matte.map(|text| text.parse().expect("a set"));
+    for effects in everything().chain(without).chain(matte) {
+        let table = table_for(effects);
         let values = run(&device, &table, &cases, effects);
         let (mut worst, mut lit) = (0.0_f64, 0);
         for (case, value) in cases.iter().zip(values) {

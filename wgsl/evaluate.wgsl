@@ -58,28 +58,28 @@ fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let light = lights[pair.y];
     let two_sided = (light.flags & EVALUATE_TWO_SIDED) != 0u;
     let surface = ltc_surface(point.position, point.normal, point.view, point.roughness);
-    var lobe: LtcLobe;
+    var lobes: LtcLobes;
     if (ltc_use_ggx) {
         let table_size = f32(textureDimensions(table).x);
-        lobe = ltc_lobe_from_table(surface, table, table_sampler, table_size);
+        lobes = ltc_lobes_from_table(surface, table, table_sampler, table_size, 0);
     }
     let first = light.first;
     let a = vertices[first];
     var value: vec3<f32>;
     if (ltc_use_disk & (light.kind == EVALUATE_DISK)) {
-        value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+        value = ltc_disk(surface, lobes, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
     } else if (ltc_use_sphere & (light.kind == EVALUATE_SPHERE)) {
-        value = ltc_sphere(surface, lobe, a.xyz, a.w);
+        value = ltc_sphere(surface, lobes, a.xyz, a.w);
     } else if (ltc_use_tube & (light.kind == EVALUATE_TUBE)) {
-        value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & EVALUATE_CAPS) != 0u);
+        value = ltc_tube(surface, lobes, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & EVALUATE_CAPS) != 0u);
     } else if (ltc_use_quad & ((light.flags & EVALUATE_CONVEX_QUAD) != 0u)) {
-        value = ltc_quad(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
+        value = ltc_quad(surface, lobes, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
     } else if (ltc_use_polygon) {
         var polygon = ltc_polygon_begin(surface, a.xyz);
         for (var i = 1u; i < light.count; i++) {
-            ltc_polygon_add(&polygon, surface, lobe, vertices[first + i].xyz);
+            ltc_polygon_add(&polygon, surface, lobes, vertices[first + i].xyz);
         }
-        value = ltc_polygon_end(&polygon, surface, lobe, two_sided);
+        value = ltc_polygon_end(&polygon, surface, lobes, two_sided);
     }
     values[index] = vec4<f32>(value, 0.0);
 }

@@ -20,9 +20,10 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobe from the two texels.
-//   2. ltc_lobe_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
-//      ltc_polygon functions: one lobe over a diffuse part.
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(ltc_lobe(...)) from the two
+//      texels, or ltc_two_lobes from three, ltc_three_lobes from five.
+//   2. ltc_lobes_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
+//      ltc_polygon functions: a specular over a diffuse part.
 //   3. ltc_shading: all lobes of a material; then ltc_shading_quad and so on for each light, and ltc_reflected.
 //
 // ARITHMETIC
@@ -78,6 +79,12 @@ override ltc_use_caps: bool = true;
 
 /// Whether quads are cut at the horizons by a cheap approximation, see ltc_quad. Off unless it is asked for.
 override ltc_use_cheap_horizon: bool = false;
+
+/// Whether isotropic GGX is the sum of two lobes rather than one, see LtcLobes. Off unless it is asked for.
+override ltc_use_second_lobe: bool = false;
+
+/// Whether it is the sum of three; means nothing without the second lobe. Off unless it is asked for.
+override ltc_use_third_lobe: bool = false;
 
 /// Pi.
 const LTC_PI: f32 = 3.14159265358979;
@@ -200,21 +207,29 @@ fn ltc_table_coordinates(surface: LtcSurface, table_size: f32) -> vec2<f32> {
     return (vec2<f32>(surface.roughness, root) * (table_size - 1.0) + 0.5) / table_size;
 }
 
-/// The lobe that two texels of the table describe.
+/// The shape that a texel of the table describes.
 ///
-/// `shape` (layer 0) holds the lobe as its deviation (X, Y, Z, W) from the mirror's lobe, in units
-/// of the lobe's width, with t the angle between normal and view:
+/// It holds the lobe as its deviation (X, Y, Z, W) from the mirror's lobe, in units of the lobe's width, with t the
+/// angle between normal and view:
 ///     x = cos^2 t + alpha X      z = sin t (cos t + alpha Z)
 ///     y = alpha sin t Y          w = alpha W
 /// so neither interpolation nor half precision moves a sharp highlight off its place. For
 /// alpha -> 0, X and Z vanish, and the rest tends to Y = -2 cos t, W = 2 cos^2 t.
-/// `amplitude` (layer 1) holds the albedo and its Schlick part in x and y.
-fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcLobe {
+fn ltc_shape(surface: LtcSurface, texel: vec4<f32>, albedo: f32, fresnel: f32) -> LtcShape {
     let c = surface.cos_view;
     let s = surface.sin_view;
     let a = surface.alpha;
-    let m = vec4<f32>(c * c + a * shape.x, a * s * shape.y, s * (c + a * shape.z), a * shape.w);
-    return ltc_planar_lobe(surface, m, amplitude.x, amplitude.y);
+    var shape: LtcShape;
+    shape.entries = vec4<f32>(c * c + a * texel.x, a * s * texel.y, s * (c + a * texel.z), a * texel.w);
+    shape.albedo = albedo;
+    shape.fresnel = fresnel;
+    return shape;
+}
+
+/// The lobe that two texels of the table describe: the shape as for ltc_shape, and the albedo and its Schlick part in x
+/// and y of `amplitude`.
+fn ltc_lobe(surface: LtcSurface, shape: vec4<f32>, amplitude: vec4<f32>) -> LtcLobe {
+    return ltc_shape_lobe(surface, ltc_shape(surface, shape, amplitude.x, amplitude.y));
 }
 
 /// The lobe whose inverse matrix has the rows (m.x, 0, m.z), (0, 1, 0), (m.y, 0, m.w) in the surface's frame.
@@ -242,6 +257,104 @@ fn ltc_lobe_from_table(surface: LtcSurface, table: texture_2d_array<f32>, table_
     let shape = textureSampleLevel(table, table_sampler, at, 0, 0.0);
     let amplitude = textureSampleLevel(table, table_sampler, at, 1, 0.0);
     return ltc_lobe(surface, shape, amplitude);
+}
+
+/// What makes a lobe whose matrix is planar, in the surface's frame: less to keep than the lobe.
+struct LtcShape {
+    /// The matrix, as for ltc_planar_lobe.
+    entries: vec4<f32>,
+    /// The lobe's part of the BRDF's integral of f cos, for F = 1.
+    albedo: f32,
+    /// Its part of the integral of f cos (1 - v.h)^5.
+    fresnel: f32,
+}
+
+/// The lobes whose sum is isotropic GGX. Those that are switched off are not read.
+///
+/// One linearly transformed cosine is not GGX: its tails are shorter, and Schlick's part is a lobe of another shape. A sum
+/// of two or three, each with a weight for either part, comes closer, at the cost of a lobe each.
+struct LtcLobes {
+    /// The first lobe; where it is the only one, that of ltc_lobe_from_table.
+    first: LtcLobe,
+    /// The second lobe.
+    second: LtcShape,
+    /// The third lobe.
+    third: LtcShape,
+    /// How many lobes this surface has; may be fewer than the switches allow.
+    count: i32,
+}
+
+/// A sum of one lobe, whatever the switches say.
+fn ltc_lobes_of(lobe: LtcLobe) -> LtcLobes {
+    var lobes: LtcLobes;
+    lobes.first = lobe;
+    lobes.count = 1;
+    return lobes;
+}
+
+/// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (weight of the
+/// first, weight of the second) for F = 1, then the same for Schlick's part.
+fn ltc_two_lobes(surface: LtcSurface, first: vec4<f32>, second: vec4<f32>, weights: vec4<f32>) -> LtcLobes {
+    var lobes: LtcLobes;
+    lobes.first = ltc_lobe(surface, first, weights.xzxz);
+    lobes.second = ltc_shape(surface, second, weights.y, weights.w);
+    lobes.count = 2;
+    return lobes;
+}
+
+/// The sum of three lobes that five texels of the table describe: their shapes, their weights for F = 1, and those for
+/// Schlick's part.
+fn ltc_three_lobes(surface: LtcSurface, first: vec4<f32>, second: vec4<f32>, third: vec4<f32>, weights: vec4<f32>, schlick: vec4<f32>) -> LtcLobes {
+    var lobes: LtcLobes;
+    lobes.first = ltc_lobe(surface, first, vec4<f32>(weights.x, schlick.x, 0.0, 0.0));
+    lobes.second = ltc_shape(surface, second, weights.y, schlick.y);
+    lobes.third = ltc_shape(surface, third, weights.z, schlick.z);
+    lobes.count = 3;
+    return lobes;
+}
+
+/// The lobes of a surface, as many as the switches say, from the table's texture array and a sampler that filters linearly
+/// and clamps to the edge. A single lobe is that of layers 0 and 1; of two lobes the three texels of ltc_two_lobes lie in
+/// the layers from `layer` on, of three lobes the five of ltc_three_lobes.
+fn ltc_lobes_from_table(surface: LtcSurface, table: texture_2d_array<f32>, table_sampler: sampler, table_size: f32, layer: i32) -> LtcLobes {
+    var lobes: LtcLobes;
+    if (!ltc_use_second_lobe) {
+        lobes = ltc_lobes_of(ltc_lobe_from_table(surface, table, table_sampler, table_size));
+    }
+    if (ltc_use_second_lobe) {
+        let at = ltc_table_coordinates(surface, table_size);
+        let first = textureSampleLevel(table, table_sampler, at, layer, 0.0);
+        let second = textureSampleLevel(table, table_sampler, at, layer + 1, 0.0);
+        let next = textureSampleLevel(table, table_sampler, at, layer + 2, 0.0);
+        if (!ltc_use_third_lobe) {
+            lobes = ltc_two_lobes(surface, first, second, next);
+        }
+        if (ltc_use_third_lobe) {
+            let weights = textureSampleLevel(table, table_sampler, at, layer + 3, 0.0);
+            let schlick = textureSampleLevel(table, table_sampler, at, layer + 4, 0.0);
+            lobes = ltc_three_lobes(surface, first, second, next, weights, schlick);
+        }
+    }
+    return lobes;
+}
+
+/// The lobe of a shape.
+fn ltc_shape_lobe(surface: LtcSurface, shape: LtcShape) -> LtcLobe {
+    return ltc_planar_lobe(surface, shape.entries, shape.albedo, shape.fresnel);
+}
+
+/// The first lobe with the albedo and the Schlick part of all: for functions that ask how much a surface reflects, not where.
+fn ltc_lobes_together(lobes: LtcLobes) -> LtcLobe {
+    var together = lobes.first;
+    if (ltc_use_second_lobe & (lobes.count > 1)) {
+        together.albedo += lobes.second.albedo;
+        together.fresnel += lobes.second.fresnel;
+    }
+    if (ltc_use_third_lobe & (lobes.count > 2)) {
+        together.albedo += lobes.third.albedo;
+        together.fresnel += lobes.third.fresnel;
+    }
+    return together;
 }
 
 /// `v`, a vector from the surface point, in the lobe's space.
@@ -279,16 +392,6 @@ fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<
     let schlick = f * f * f * f * f;
     let whole = coverage * coverage;
     return coverage * vec2<f32>(lobe.albedo, lobe.albedo * schlick * (1.0 - whole) + lobe.fresnel * whole);
-}
-
-/// The value (diffuse, specular, fresnel) from the form factor over the surface's horizon and the vector
-/// form factor over both horizons in the lobe's space, both of the light that the surface receives.
-fn ltc_value(surface: LtcSurface, lobe: LtcLobe, form_factor: f32, toward: vec3<f32>) -> vec3<f32> {
-    var specular = vec2<f32>(0.0);
-    if (ltc_use_ggx) {
-        specular = ltc_lobe_value(surface, lobe, toward);
-    }
-    return vec3<f32>(form_factor, specular);
 }
 
 /// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
@@ -800,6 +903,31 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
     return ltc_received_vector(sum * LTC_OVER_TWO_PI, quad.front, quad.two_sided);
 }
 
+/// The parts (specular, fresnel) that a sum of lobes reflects of a quad of unit radiance.
+fn ltc_quad_specular(surface: LtcSurface, quad: LtcQuad, lobes: LtcLobes) -> vec2<f32> {
+    var value = vec2<f32>(0.0);
+    if (!ltc_use_second_lobe) {
+        value = ltc_lobe_value(surface, lobes.first, ltc_quad_lobe(quad, lobes.first));
+    }
+    if (ltc_use_second_lobe) {
+        var lobe = lobes.first;
+        var shape = lobes.second;
+        var index = 1;
+        loop {
+            value += ltc_lobe_value(surface, lobe, ltc_quad_lobe(quad, lobe));
+            if (index >= lobes.count) {
+                break;
+            }
+            lobe = ltc_shape_lobe(surface, shape);
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+            index += 1;
+        }
+    }
+    return value;
+}
+
 /// The value (diffuse, specular, fresnel) of a convex quad light with the vertices `a`, `b`, `c`,
 /// `d`, counter-clockwise seen from the side that emits (from both with `two_sided`). Repeated
 /// vertices make it a triangle. For a quad that is not convex use the polygon functions.
@@ -815,24 +943,24 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
 /// Production"), and lobes are cut at their own horizon only. A light above the horizons has the same value; one that
 /// straddles them is off by up to 0.07, by 1.8 % of the mean on random quads, and light may come from a little below the
 /// surface.
-fn ltc_quad(surface: LtcSurface, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
+fn ltc_quad(surface: LtcSurface, lobes: LtcLobes, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, two_sided: bool) -> vec3<f32> {
     let quad = ltc_quad_begin(surface, a, b, c, d, two_sided);
     if (!quad.reaches) {
         return vec3<f32>(0.0);
     }
-    var toward = vec3<f32>(0.0);
+    var specular = vec2<f32>(0.0);
     if (ltc_use_ggx) {
-        toward = ltc_quad_lobe(quad, lobe);
+        specular = ltc_quad_specular(surface, quad, lobes);
     }
-    return ltc_value(surface, lobe, ltc_quad_diffuse(surface, quad), toward);
+    return vec3<f32>(ltc_quad_diffuse(surface, quad), specular);
 }
 
 // ---------------------------------------------------------------------------------------------
 // Polygons of any number of vertices, convex or not
 //
 //     var polygon = ltc_polygon_begin(surface, first_vertex);
-//     ltc_polygon_add(&polygon, surface, lobe, vertex);     // for each of the others
-//     let value = ltc_polygon_end(&polygon, surface, lobe, two_sided);
+//     ltc_polygon_add(&polygon, surface, lobes, vertex);    // for each of the others
+//     let value = ltc_polygon_end(&polygon, surface, lobes, two_sided);
 //
 // With several lobes, add each vertex to the outline and then to each lobe, the first one again at the end:
 //
@@ -908,12 +1036,22 @@ struct LtcOutlineLobe {
     sum: vec3<f32>,
 }
 
-/// A polygon's outline and the lobe that it lights.
+/// What the lobes of a sum know of an outline. Those that are switched off are not read.
+struct LtcOutlineLobes {
+    /// What the first lobe knows.
+    first: LtcOutlineLobe,
+    /// What the second lobe knows.
+    second: LtcOutlineLobe,
+    /// What the third lobe knows.
+    third: LtcOutlineLobe,
+}
+
+/// A polygon's outline and the lobes that it lights.
 struct LtcPolygon {
     /// The outline.
     outline: LtcOutline,
-    /// What the lobe knows of it.
-    lobe: LtcOutlineLobe,
+    /// What the lobes know of it.
+    sums: LtcOutlineLobes,
 }
 
 /// Starts an outline at its first vertex.
@@ -1084,36 +1222,94 @@ fn ltc_outline_lobe(outline: LtcOutline, sum: LtcOutlineLobe, two_sided: bool) -
     return ltc_received_vector(sum.sum * LTC_OVER_TWO_PI, outline.facing < 0.0, two_sided);
 }
 
+/// Starts what a sum of lobes knows of an outline.
+fn ltc_outline_lobes_begin() -> LtcOutlineLobes {
+    var sums: LtcOutlineLobes;
+    sums.first = ltc_outline_lobe_begin();
+    sums.second = ltc_outline_lobe_begin();
+    sums.third = ltc_outline_lobe_begin();
+    return sums;
+}
+
+/// Adds the outline's last edge to the lobes of a sum.
+fn ltc_outline_lobes_add(sums: ptr<function, LtcOutlineLobes>, surface: LtcSurface, outline: LtcOutline, lobes: LtcLobes) {
+    if (!ltc_use_second_lobe) {
+        var only = (*sums).first;
+        ltc_outline_lobe_add(&only, outline, lobes.first);
+        (*sums).first = only;
+    }
+    if (ltc_use_second_lobe) {
+        var lobe = lobes.first;
+        var shape = lobes.second;
+        var sum = (*sums).first;
+        var index = 1;
+        loop {
+            ltc_outline_lobe_add(&sum, outline, lobe);
+            if (index == 1) {
+                (*sums).first = sum;
+                sum = (*sums).second;
+            } else if (index == 2) {
+                (*sums).second = sum;
+                if (ltc_use_third_lobe) {
+                    sum = (*sums).third;
+                }
+            } else {
+                (*sums).third = sum;
+            }
+            if (index >= lobes.count) {
+                break;
+            }
+            lobe = ltc_shape_lobe(surface, shape);
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+            index += 1;
+        }
+    }
+}
+
+/// The parts (specular, fresnel) that a sum of lobes reflects of a closed outline of unit radiance.
+fn ltc_outline_specular(surface: LtcSurface, outline: LtcOutline, sums: LtcOutlineLobes, lobes: LtcLobes, two_sided: bool) -> vec2<f32> {
+    var value = ltc_lobe_value(surface, lobes.first, ltc_outline_lobe(outline, sums.first, two_sided));
+    if (ltc_use_second_lobe & (lobes.count > 1)) {
+        value += ltc_lobe_value(surface, ltc_shape_lobe(surface, lobes.second), ltc_outline_lobe(outline, sums.second, two_sided));
+    }
+    if (ltc_use_third_lobe & (lobes.count > 2)) {
+        value += ltc_lobe_value(surface, ltc_shape_lobe(surface, lobes.third), ltc_outline_lobe(outline, sums.third, two_sided));
+    }
+    return value;
+}
+
 /// Starts a polygon at its first vertex.
 fn ltc_polygon_begin(surface: LtcSurface, corner: vec3<f32>) -> LtcPolygon {
     var polygon: LtcPolygon;
     polygon.outline = ltc_outline_begin(surface, corner);
-    polygon.lobe = ltc_outline_lobe_begin();
+    polygon.sums = ltc_outline_lobes_begin();
     return polygon;
 }
 
 /// Adds the next vertex.
-fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, corner: vec3<f32>) {
+fn ltc_polygon_add(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobes: LtcLobes, corner: vec3<f32>) {
     var outline = (*polygon).outline;
-    var sum = (*polygon).lobe;
+    var sums = (*polygon).sums;
     ltc_outline_add(&outline, surface, corner);
     if (ltc_use_ggx) {
-        ltc_outline_lobe_add(&sum, outline, lobe);
+        ltc_outline_lobes_add(&sums, surface, outline, lobes);
     }
     (*polygon).outline = outline;
-    (*polygon).lobe = sum;
+    (*polygon).sums = sums;
 }
 
 /// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
-fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobe: LtcLobe, two_sided: bool) -> vec3<f32> {
+fn ltc_polygon_end(polygon: ptr<function, LtcPolygon>, surface: LtcSurface, lobes: LtcLobes, two_sided: bool) -> vec3<f32> {
     let first = (*polygon).outline.first;
-    ltc_polygon_add(polygon, surface, lobe, first);
+    ltc_polygon_add(polygon, surface, lobes, first);
     let form_factor = ltc_outline_diffuse((*polygon).outline, two_sided);
-    var toward = vec3<f32>(0.0);
+    var specular = vec2<f32>(0.0);
     if (ltc_use_ggx) {
-        toward = ltc_outline_lobe((*polygon).outline, (*polygon).lobe, two_sided);
+        specular = ltc_outline_specular(surface, (*polygon).outline, (*polygon).sums, lobes, two_sided);
     }
-    return ltc_value(surface, lobe, form_factor, toward);
+    return vec3<f32>(form_factor, specular);
 }
 
 /// ltc_edge_about for points and their offsets from `origin`. A point far from `origin` may as well be
@@ -1405,6 +1601,31 @@ fn ltc_tube_lobe(tube: LtcTube, lobe: LtcLobe) -> vec3<f32> {
     return vec3<f32>(value.xy, max(value.z, 0.0));
 }
 
+/// The parts (specular, fresnel) that a sum of lobes reflects of a tube of unit radiance.
+fn ltc_tube_specular(surface: LtcSurface, tube: LtcTube, lobes: LtcLobes) -> vec2<f32> {
+    var value = vec2<f32>(0.0);
+    if (!ltc_use_second_lobe) {
+        value = ltc_lobe_value(surface, lobes.first, ltc_tube_lobe(tube, lobes.first));
+    }
+    if (ltc_use_second_lobe) {
+        var lobe = lobes.first;
+        var shape = lobes.second;
+        var index = 1;
+        loop {
+            value += ltc_lobe_value(surface, lobe, ltc_tube_lobe(tube, lobe));
+            if (index >= lobes.count) {
+                break;
+            }
+            lobe = ltc_shape_lobe(surface, shape);
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+            index += 1;
+        }
+    }
+    return value;
+}
+
 /// The value (diffuse, specular, fresnel) of a tube light of the given `radius` around the line from `start` to
 /// `end`, at best an eighth of the distance or less; with `caps` its ends are rounded. See ltc_tube_begin.
 ///
@@ -1412,13 +1633,13 @@ fn ltc_tube_lobe(tube: LtcTube, lobe: LtcLobe) -> vec3<f32> {
 /// distance to that of the axis, in units of the angles under which the tube's width and length are seen,
 /// each counted as no more than 1: so much do the coordinates' own digits leave open. For a lobe's coverage see
 /// ltc_tube_lobe.
-fn ltc_tube(surface: LtcSurface, lobe: LtcLobe, start: vec3<f32>, end: vec3<f32>, radius: f32, caps: bool) -> vec3<f32> {
+fn ltc_tube(surface: LtcSurface, lobes: LtcLobes, start: vec3<f32>, end: vec3<f32>, radius: f32, caps: bool) -> vec3<f32> {
     let tube = ltc_tube_begin(surface, start, end, radius, caps);
-    var toward = vec3<f32>(0.0);
+    var specular = vec2<f32>(0.0);
     if (ltc_use_ggx) {
-        toward = ltc_tube_lobe(tube, lobe);
+        specular = ltc_tube_specular(surface, tube, lobes);
     }
-    return ltc_value(surface, lobe, ltc_tube_diffuse(surface, tube), toward);
+    return vec3<f32>(ltc_tube_diffuse(surface, tube), specular);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -1608,6 +1829,51 @@ fn ltc_texture_fetch_pair(picture: texture_2d<f32>, picture_sampler: sampler, lo
     let first = textureSampleLevel(picture, picture_sampler, lookup.place + lookup.apart, lookup.level);
     let second = textureSampleLevel(picture, picture_sampler, lookup.place - lookup.apart, lookup.level);
     return 0.5 * (first + second);
+}
+
+/// What a sum of lobes sees of a rectangle that shows a picture.
+struct LtcSeen {
+    /// The colour that the lobes see on average, each by its share of the specular value.
+    colour: vec3<f32>,
+    /// The parts (specular, fresnel) for a white picture.
+    value: vec2<f32>,
+}
+
+/// What one lobe sees of a rectangle that shows a picture; see ltc_rectangle_lookup.
+fn ltc_lobe_picture(surface: LtcSurface, quad: LtcQuad, lobe: LtcLobe, a: vec3<f32>, b: vec3<f32>, d: vec3<f32>, picture: texture_2d<f32>, picture_sampler: sampler, texels: vec2<f32>) -> LtcSeen {
+    let toward = ltc_quad_lobe(quad, lobe);
+    let place = ltc_rectangle_lookup(surface, lobe, a, b, d, toward, texels, false);
+    var seen: LtcSeen;
+    seen.colour = ltc_texture_fetch(picture, picture_sampler, place).xyz;
+    seen.value = ltc_lobe_value(surface, lobe, toward);
+    return seen;
+}
+
+/// What a sum of lobes sees of a rectangle that shows a picture; see ltc_rectangle_lookup.
+fn ltc_quad_picture(surface: LtcSurface, quad: LtcQuad, lobes: LtcLobes, a: vec3<f32>, b: vec3<f32>, d: vec3<f32>, picture: texture_2d<f32>, picture_sampler: sampler, texels: vec2<f32>) -> LtcSeen {
+    var seen: LtcSeen;
+    if (!ltc_use_second_lobe) {
+        seen = ltc_lobe_picture(surface, quad, lobes.first, a, b, d, picture, picture_sampler, texels);
+    }
+    if (ltc_use_second_lobe) {
+        var lobe = lobes.first;
+        var shape = lobes.second;
+        var index = 1;
+        loop {
+            let part = ltc_lobe_picture(surface, quad, lobe, a, b, d, picture, picture_sampler, texels);
+            seen.value += part.value;
+            seen.colour += (part.colour - seen.colour) * (part.value.x / max(seen.value.x, LTC_TINY));
+            if (index >= lobes.count) {
+                break;
+            }
+            lobe = ltc_shape_lobe(surface, shape);
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+            index += 1;
+        }
+    }
+    return seen;
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -2255,22 +2521,47 @@ fn ltc_disk_lobe(disk: LtcDisk, lobe: LtcLobe) -> vec3<f32> {
     return vec3<f32>(sum.xy, max(sum.z, 0.0));
 }
 
+/// The parts (specular, fresnel) that a sum of lobes reflects of a disk of unit radiance.
+fn ltc_disk_specular(surface: LtcSurface, disk: LtcDisk, lobes: LtcLobes) -> vec2<f32> {
+    var value = vec2<f32>(0.0);
+    if (!ltc_use_second_lobe) {
+        value = ltc_lobe_value(surface, lobes.first, ltc_disk_lobe(disk, lobes.first));
+    }
+    if (ltc_use_second_lobe) {
+        var lobe = lobes.first;
+        var shape = lobes.second;
+        var index = 1;
+        loop {
+            value += ltc_lobe_value(surface, lobe, ltc_disk_lobe(disk, lobe));
+            if (index >= lobes.count) {
+                break;
+            }
+            lobe = ltc_shape_lobe(surface, shape);
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+            index += 1;
+        }
+    }
+    return value;
+}
+
 /// The value (diffuse, specular, fresnel) of an elliptical disk light around `centre` with the semi-axes `half_x` and
 /// `half_y`, any two conjugate half-diameters. It emits to the side of their cross product (to both with `two_sided`).
 ///
 /// Error of the form factor against exact arithmetic: at most 1e-6, 2e-6 for a disk that all but touches the surface;
 /// at most 1e-4 of its value for one whose size is 1e-5 to a tenth of its distance. Where the rim itself passes by
 /// closely, 6e-7 times the ratio of the disk's size to that distance takes the place of 1e-6.
-fn ltc_disk(surface: LtcSurface, lobe: LtcLobe, centre: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, two_sided: bool) -> vec3<f32> {
+fn ltc_disk(surface: LtcSurface, lobes: LtcLobes, centre: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, two_sided: bool) -> vec3<f32> {
     let disk = ltc_disk_begin(surface, centre, half_x, half_y, two_sided);
     if (!disk.reaches) {
         return vec3<f32>(0.0);
     }
-    var toward = vec3<f32>(0.0);
+    var specular = vec2<f32>(0.0);
     if (ltc_use_ggx) {
-        toward = ltc_disk_lobe(disk, lobe);
+        specular = ltc_disk_specular(surface, disk, lobes);
     }
-    return ltc_value(surface, lobe, ltc_disk_diffuse(disk), toward);
+    return vec3<f32>(ltc_disk_diffuse(disk), specular);
 }
 
 /// Places a sphere over a surface; see ltc_sphere.
@@ -2329,22 +2620,47 @@ fn ltc_sphere_lobe(sphere: LtcSphere, lobe: LtcLobe) -> vec3<f32> {
     return ltc_disk_lobe(sphere.disk, lobe);
 }
 
+/// The parts (specular, fresnel) that a sum of lobes reflects of a sphere of unit radiance.
+fn ltc_sphere_specular(surface: LtcSurface, sphere: LtcSphere, lobes: LtcLobes) -> vec2<f32> {
+    var value = vec2<f32>(0.0);
+    if (!ltc_use_second_lobe) {
+        value = ltc_lobe_value(surface, lobes.first, ltc_sphere_lobe(sphere, lobes.first));
+    }
+    if (ltc_use_second_lobe) {
+        var lobe = lobes.first;
+        var shape = lobes.second;
+        var index = 1;
+        loop {
+            value += ltc_lobe_value(surface, lobe, ltc_sphere_lobe(sphere, lobe));
+            if (index >= lobes.count) {
+                break;
+            }
+            lobe = ltc_shape_lobe(surface, shape);
+            if (ltc_use_third_lobe) {
+                shape = lobes.third;
+            }
+            index += 1;
+        }
+    }
+    return value;
+}
+
 /// The value (diffuse, specular, fresnel) of a sphere light, which emits outwards, and inwards to a surface point
 /// that it contains.
 ///
 /// Error of the form factor against exact arithmetic: at most 1e-6, and 1e-4 of its value for a sphere whose radius is
 /// less than a twentieth of its distance. At the distance g, in radii, from the sphere 1e-7 / sqrt(g) takes the place
 /// of 1e-6: so much does the rounding of that distance move the sphere's outline.
-fn ltc_sphere(surface: LtcSurface, lobe: LtcLobe, centre: vec3<f32>, radius: f32) -> vec3<f32> {
+fn ltc_sphere(surface: LtcSurface, lobes: LtcLobes, centre: vec3<f32>, radius: f32) -> vec3<f32> {
     let sphere = ltc_sphere_begin(surface, centre, radius);
     if (!sphere.disk.reaches) {
         return vec3<f32>(0.0);
     }
-    var toward = vec3<f32>(0.0);
+    var specular = vec2<f32>(0.0);
     if (ltc_use_ggx) {
-        toward = ltc_sphere_lobe(sphere, lobe);
+        specular = ltc_sphere_specular(surface, sphere, lobes);
     }
-    return ltc_value(surface, lobe, ltc_sphere_diffuse(sphere), toward);
+    return vec3<f32>(ltc_sphere_diffuse(sphere), specular);
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -2659,6 +2975,8 @@ struct LtcMaterial {
 /// Which layers of the table's texture array hold what; constants of the caller. Those of switched-off effects
 /// are not read.
 struct LtcLayers {
+    /// The first of the layers of several lobes, see ltc_lobes_from_table.
+    lobes: i32,
     /// The layer of the sheen.
     sheen: i32,
     /// The layer of rough diffuse parts.
@@ -2671,10 +2989,10 @@ struct LtcLayers {
 struct LtcShading {
     /// The point and its frame.
     surface: LtcSurface,
-    /// The specular lobe.
-    specular: LtcLobe,
-    /// The coat's lobe.
-    coat: LtcLobe,
+    /// The specular lobes. An anisotropic surface has one; the others weigh nothing there.
+    specular: LtcLobes,
+    /// The coat's lobes.
+    coat: LtcLobes,
     /// The sheen's lobe.
     sheen: LtcLobe,
     /// The lobe of a rough diffuse part.
@@ -2699,10 +3017,10 @@ struct LtcReceived {
 struct LtcShadingPolygon {
     /// Its outline.
     outline: LtcOutline,
-    /// What the specular lobe knows of it.
-    specular: LtcOutlineLobe,
-    /// What the coat's lobe knows of it.
-    coat: LtcOutlineLobe,
+    /// What the specular lobes know of it.
+    specular: LtcOutlineLobes,
+    /// What the coat's lobes know of it.
+    coat: LtcOutlineLobes,
     /// What the sheen's lobe knows of it.
     sheen: LtcOutlineLobe,
     /// What the rough diffuse lobe knows of it.
@@ -2746,12 +3064,12 @@ fn ltc_shading(position: vec3<f32>, normal: vec3<f32>, view: vec3<f32>, material
     if (ltc_use_anisotropic & (material.anisotropy > 0.0)) {
         let alpha = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         let anisotropy = ltc_anisotropy(surface, material.grain, alpha.x, alpha.y);
-        shading.specular = ltc_anisotropic_lobe_from_table(surface, anisotropy, table, table_sampler, table_size, layers.anisotropic);
+        shading.specular = ltc_lobes_of(ltc_anisotropic_lobe_from_table(surface, anisotropy, table, table_sampler, table_size, layers.anisotropic));
     } else if (ltc_use_ggx) {
-        shading.specular = ltc_lobe_from_table(surface, table, table_sampler, table_size);
+        shading.specular = ltc_lobes_from_table(surface, table, table_sampler, table_size, layers.lobes);
     }
     if (ltc_use_clearcoat) {
-        shading.coat = ltc_lobe_from_table(ltc_surface_with_roughness(surface, material.coat_roughness), table, table_sampler, table_size);
+        shading.coat = ltc_lobes_from_table(ltc_surface_with_roughness(surface, material.coat_roughness), table, table_sampler, table_size, layers.lobes);
     }
     if (ltc_use_sheen) {
         shading.sheen = ltc_sheen_lobe_from_table(ltc_surface_with_roughness(surface, material.sheen_roughness), table, table_sampler, table_size, layers.sheen);
@@ -2774,10 +3092,10 @@ fn ltc_shading_quad(shading: LtcShading, a: vec3<f32>, b: vec3<f32>, c: vec3<f32
     if (quad.reaches) {
         received.diffuse = ltc_quad_diffuse(shading.surface, quad);
         if (ltc_use_ggx) {
-            received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_quad_lobe(quad, shading.specular));
+            received.specular = ltc_quad_specular(shading.surface, quad, shading.specular);
         }
         if (ltc_use_clearcoat) {
-            received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_quad_lobe(quad, shading.coat));
+            received.coat = ltc_quad_specular(shading.surface, quad, shading.coat);
         }
         if (ltc_use_sheen) {
             received.sheen = ltc_plain_value(shading.sheen, ltc_quad_lobe(quad, shading.sheen));
@@ -2795,10 +3113,10 @@ fn ltc_shading_disk(shading: LtcShading, centre: vec3<f32>, half_x: vec3<f32>, h
     let disk = ltc_disk_begin(shading.surface, centre, half_x, half_y, two_sided);
     received.diffuse = ltc_disk_diffuse(disk);
     if (ltc_use_ggx) {
-        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_disk_lobe(disk, shading.specular));
+        received.specular = ltc_disk_specular(shading.surface, disk, shading.specular);
     }
     if (ltc_use_clearcoat) {
-        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_disk_lobe(disk, shading.coat));
+        received.coat = ltc_disk_specular(shading.surface, disk, shading.coat);
     }
     if (ltc_use_sheen) {
         received.sheen = ltc_plain_value(shading.sheen, ltc_disk_lobe(disk, shading.sheen));
@@ -2815,10 +3133,10 @@ fn ltc_shading_sphere(shading: LtcShading, centre: vec3<f32>, radius: f32) -> Lt
     let sphere = ltc_sphere_begin(shading.surface, centre, radius);
     received.diffuse = ltc_sphere_diffuse(sphere);
     if (ltc_use_ggx) {
-        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_sphere_lobe(sphere, shading.specular));
+        received.specular = ltc_sphere_specular(shading.surface, sphere, shading.specular);
     }
     if (ltc_use_clearcoat) {
-        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_sphere_lobe(sphere, shading.coat));
+        received.coat = ltc_sphere_specular(shading.surface, sphere, shading.coat);
     }
     if (ltc_use_sheen) {
         received.sheen = ltc_plain_value(shading.sheen, ltc_sphere_lobe(sphere, shading.sheen));
@@ -2835,10 +3153,10 @@ fn ltc_shading_tube(shading: LtcShading, start: vec3<f32>, end: vec3<f32>, radiu
     let tube = ltc_tube_begin(shading.surface, start, end, radius, caps);
     received.diffuse = ltc_tube_diffuse(shading.surface, tube);
     if (ltc_use_ggx) {
-        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_tube_lobe(tube, shading.specular));
+        received.specular = ltc_tube_specular(shading.surface, tube, shading.specular);
     }
     if (ltc_use_clearcoat) {
-        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_tube_lobe(tube, shading.coat));
+        received.coat = ltc_tube_specular(shading.surface, tube, shading.coat);
     }
     if (ltc_use_sheen) {
         received.sheen = ltc_plain_value(shading.sheen, ltc_tube_lobe(tube, shading.sheen));
@@ -2853,8 +3171,8 @@ fn ltc_shading_tube(shading: LtcShading, start: vec3<f32>, end: vec3<f32>, radiu
 fn ltc_shading_polygon_begin(shading: LtcShading, corner: vec3<f32>) -> LtcShadingPolygon {
     var polygon: LtcShadingPolygon;
     polygon.outline = ltc_outline_begin(shading.surface, corner);
-    polygon.specular = ltc_outline_lobe_begin();
-    polygon.coat = ltc_outline_lobe_begin();
+    polygon.specular = ltc_outline_lobes_begin();
+    polygon.coat = ltc_outline_lobes_begin();
     polygon.sheen = ltc_outline_lobe_begin();
     polygon.rough = ltc_outline_lobe_begin();
     return polygon;
@@ -2867,12 +3185,12 @@ fn ltc_shading_polygon_add(polygon: ptr<function, LtcShadingPolygon>, shading: L
     (*polygon).outline = outline;
     if (ltc_use_ggx) {
         var specular = (*polygon).specular;
-        ltc_outline_lobe_add(&specular, outline, shading.specular);
+        ltc_outline_lobes_add(&specular, shading.surface, outline, shading.specular);
         (*polygon).specular = specular;
     }
     if (ltc_use_clearcoat) {
         var coat = (*polygon).coat;
-        ltc_outline_lobe_add(&coat, outline, shading.coat);
+        ltc_outline_lobes_add(&coat, shading.surface, outline, shading.coat);
         (*polygon).coat = coat;
     }
     if (ltc_use_sheen) {
@@ -2895,10 +3213,10 @@ fn ltc_shading_polygon_end(polygon: ptr<function, LtcShadingPolygon>, shading: L
     var received: LtcReceived;
     received.diffuse = ltc_outline_diffuse(outline, two_sided);
     if (ltc_use_ggx) {
-        received.specular = ltc_lobe_value(shading.surface, shading.specular, ltc_outline_lobe(outline, (*polygon).specular, two_sided));
+        received.specular = ltc_outline_specular(shading.surface, outline, (*polygon).specular, shading.specular, two_sided);
     }
     if (ltc_use_clearcoat) {
-        received.coat = ltc_lobe_value(shading.surface, shading.coat, ltc_outline_lobe(outline, (*polygon).coat, two_sided));
+        received.coat = ltc_outline_specular(shading.surface, outline, (*polygon).coat, shading.coat, two_sided);
     }
     if (ltc_use_sheen) {
         received.sheen = ltc_plain_value(shading.sheen, ltc_outline_lobe(outline, (*polygon).sheen, two_sided));
@@ -2924,7 +3242,7 @@ fn ltc_reflected(shading: LtcShading, material: LtcMaterial, received: LtcReceiv
         let value = vec3<f32>(received.diffuse, received.specular);
         var specular = ltc_reflectance(value, material.normal_reflectance, material.grazing_reflectance);
         if (ltc_use_energy_compensation) {
-            specular *= ltc_energy_compensation(shading.specular, material.normal_reflectance);
+            specular *= ltc_energy_compensation(ltc_lobes_together(shading.specular), material.normal_reflectance);
         }
         radiance += specular;
     }
@@ -2932,7 +3250,7 @@ fn ltc_reflected(shading: LtcShading, material: LtcMaterial, received: LtcReceiv
         radiance = ltc_sheen_over(radiance, shading.sheen, vec3<f32>(received.diffuse, received.sheen, 0.0), material.sheen_colour);
     }
     if (ltc_use_clearcoat) {
-        radiance = ltc_coat_over(radiance, shading.coat, vec3<f32>(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = ltc_coat_over(radiance, ltc_lobes_together(shading.coat), vec3<f32>(received.diffuse, received.coat), material.coat_reflectance, material.coat);
     }
     return radiance;
 }
@@ -2953,18 +3271,16 @@ fn ltc_reflected_picture(shading: LtcShading, material: LtcMaterial, a: vec3<f32
     let place = ltc_rectangle_diffuse_lookup(shading.surface, a, b, d, ltc_quad_toward(shading.surface, quad), texels, false);
     var radiance = ltc_reflected(shading, material, diffuse) * ltc_texture_fetch(picture, picture_sampler, place).xyz;
     if (ltc_use_ggx) {
-        let toward = ltc_quad_lobe(quad, shading.specular);
+        let glossy = ltc_quad_picture(shading.surface, quad, shading.specular, a, b, d, picture, picture_sampler, texels);
         var specular: LtcReceived;
-        specular.specular = ltc_lobe_value(shading.surface, shading.specular, toward);
-        let glossy = ltc_rectangle_lookup(shading.surface, shading.specular, a, b, d, toward, texels, false);
-        radiance += ltc_reflected(shading, material, specular) * ltc_texture_fetch(picture, picture_sampler, glossy).xyz;
+        specular.specular = glossy.value;
+        radiance += ltc_reflected(shading, material, specular) * glossy.colour;
     }
     if (ltc_use_clearcoat) {
-        let toward = ltc_quad_lobe(quad, shading.coat);
+        let clear = ltc_quad_picture(shading.surface, quad, shading.coat, a, b, d, picture, picture_sampler, texels);
         var coat: LtcReceived;
-        coat.coat = ltc_lobe_value(shading.surface, shading.coat, toward);
-        let clear = ltc_rectangle_lookup(shading.surface, shading.coat, a, b, d, toward, texels, false);
-        radiance += ltc_reflected(shading, material, coat) * ltc_texture_fetch(picture, picture_sampler, clear).xyz;
+        coat.coat = clear.value;
+        radiance += ltc_reflected(shading, material, coat) * clear.colour;
     }
     if (ltc_use_sheen) {
         let toward = ltc_quad_lobe(quad, shading.sheen);

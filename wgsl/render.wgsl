@@ -31,9 +31,9 @@ struct RenderSettings {
     sheen_layer: i32,
     diffuse_layer: i32,
     anisotropic_layer: i32,
+    lobes_layer: i32,
     spare_a: u32,
     spare_b: u32,
-    spare_c: u32,
 }
 
 /// A surface and its material.
@@ -336,6 +336,7 @@ fn render_shade(hit: RenderHit, view: vec3<f32>) -> vec3<f32> {
     material.grain = object.grain;
     material.anisotropy = object.anisotropy;
     var layers: LtcLayers;
+    layers.lobes = settings.lobes_layer;
     layers.sheen = settings.sheen_layer;
     layers.diffuse = settings.diffuse_layer;
     layers.anisotropic = settings.anisotropic_layer;

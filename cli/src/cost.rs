@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use softbox::effects::Effects;
 use softbox::report::cost::{self, Cost};
 
+use crate::quality::QualityArguments;
 use crate::select::print_text;
 
 #[derive(Args)]
@@ -16,6 +17,8 @@ pub struct CostArguments {
     /// default.
     #[arg(long, value_name = "SET")]
     effects: Vec<String>,
+    #[command(flatten)]
+    quality: QualityArguments,
     /// Families of AMD processors to compile for, as Mesa names them.
     #[arg(long, value_delimiter = ',', default_values = cost::FAMILIES, value_name = "NAMES")]
     family: Vec<String>,
@@ -63,6 +66,7 @@ pub fn cost(arguments: &CostArguments) -> anyhow::Result<()> {
     if sets.is_empty() {
         sets = cost::typical();
     }
+    let sets: Vec<Effects> = sets.into_iter().map(|set| arguments.quality.of(set)).collect();
     if arguments.here {
         let family = arguments.family.join(",");
         println!("{}", serde_json::to_string(&report(family, &sets)?)?);

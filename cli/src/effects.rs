@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use softbox::scene::Scene;
 
+use crate::quality::QualityArguments;
 use crate::select::print_text;
 
 /// What `softbox effects` is given.
@@ -12,6 +13,8 @@ use crate::select::print_text;
 pub struct EffectsArguments {
     /// The scene file (TOML).
     scene: PathBuf,
+    #[command(flatten)]
+    quality: QualityArguments,
     /// Tell for each entry which effects it calls for, too.
     #[arg(long)]
     list: bool,
@@ -24,7 +27,7 @@ pub struct EffectsArguments {
 /// If the scene cannot be read.
 pub fn effects(arguments: &EffectsArguments) -> anyhow::Result<()> {
     let scene = Scene::load(&arguments.scene)?;
-    let mut text = format!("{}\n", scene.effects());
+    let mut text = format!("{}\n", arguments.quality.of(scene.effects()));
     if arguments.list {
         for (place, effects) in scene.entries() {
             text += &format!("{place:20} {effects}\n");

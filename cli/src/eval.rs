@@ -14,11 +14,12 @@ use serde::Deserialize;
 use serde_json::Value;
 use softbox::brdf::{Brdf, Ggx};
 use softbox::device::{Batch, Device, EvaluateSurface, Program};
+use softbox::effects::{self, Effect, Effects, Quality};
 use softbox::light::{Light, LightError, light_value};
 use softbox::scene::load_picture;
 use softbox::shade::{
-    LTC_ROUGHNESS_FLOOR, LtcLookup, Real, Vector, ltc_quad_begin, ltc_quad_lobe, ltc_quad_toward,
-    ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_surface,
+    LTC_ROUGHNESS_FLOOR, LtcLookup, Real, Vector, ltc_lobe_value, ltc_quad_begin, ltc_quad_lobe,
+    ltc_quad_toward, ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_surface,
 };
 use softbox::table::Table;
 use softbox::texture::Prefiltered;
@@ -53,6 +54,9 @@ pub struct EvalArguments {
     /// What evaluates.
     #[arg(long, value_enum, default_value = "cpu")]
     on: On,
+    /// Quality level: fast, standard, fine or finest.
+    #[arg(long, value_name = "LEVEL", default_value = "standard")]
+    quality: Quality,
     /// File of cases; standard input without it.
     file: Option<PathBuf>,
 }
@@ -119,7 +123,8 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
         None => ("standard input".to_owned(), Box::new(io::stdin())),
     };
     let mut input = BufReader::with_capacity(1 << 16, input);
-    let table = Table::default();
+    let effects = arguments.quality.of(Effects::standing().without(Effect::Anisotropic));
+    let table = Table::default().completed(&effects.layers()).only(&effects.layers());
     let device = match arguments.on {
         On::Gpu => Some(Device::open(wgpu::Backends::VULKAN)?),
         _ => None,
@@ -128,11 +133,11 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
     let mut cases: Vec<Case> = Vec::new();
     let mut flush = |cases: &mut Vec<Case>| -> anyhow::Result<()> {
         let values: Vec<Values> = match arguments.on {
-            On::Cpu => cases.par_iter().map(|case| by_twin::<f32>(&table, case)).collect(),
-            On::CpuF64 => cases.par_iter().map(|case| by_twin::<f64>(&table, case)).collect(),
+            On::Cpu => cases.par_iter().map(|case| by_twin::<f32>(&table, effects, case)).collect(),
+            On::CpuF64 => cases.par_iter().map(|case| by_twin::<f64>(&table, effects, case)).collect(),
             On::Truth => cases.par_iter().map(by_truth).collect(),
             On::Gpu => match &device {
-                Some(device) => by_device(device, &table, cases)?,
+                Some(device) => by_device(device, &table, effects, cases)?,
                 None => Vec::new(),
             },
         };
@@ -280,11 +285,11 @@ fn parse(line: &[u8], on: On, pictures: &mut Pictures) -> anyhow::Result<Case> {
     })
 }
 
-fn by_twin<R: Real>(table: &Table, case: &Case) -> Values {
+fn by_twin<R: Real>(table: &Table, effects: Effects, case: &Case) -> Values {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), R::new(case.roughness));
-    let lobe = table.lobe(&surface);
-    let value = light_value(&surface, &lobe, &case.light);
+    let lobes = table.lobes(&surface, effects);
+    let value = light_value(&surface, &lobes, &case.light);
     let [diffuse, specular, fresnel] = [value.x(), value.y(), value.z()].map(Real::to_f64);
     let (Some(picture), Light::Polygon { points, two_sided }) = (&case.picture, &case.light) else {
         return Values::White([diffuse, specular, fresnel]);
@@ -299,8 +304,15 @@ fn by_twin<R: Real>(table: &Table, case: &Case) -> Values {
     };
     let toward = ltc_quad_toward(&surface, &quad);
     let matte = colour(ltc_rectangle_diffuse_lookup(&surface, [a, b, d], toward, texels, false));
-    let toward = ltc_quad_lobe(&quad, &lobe);
-    let glossy = colour(ltc_rectangle_lookup(&surface, &lobe, [a, b, d], toward, texels, false));
+    let (mut glossy, mut sum) = (DVec3::ZERO, 0.0);
+    for lobe in lobes.as_slice() {
+        let toward = ltc_quad_lobe(&quad, lobe);
+        let [part, _]: [R; 2] = ltc_lobe_value(&surface, lobe, toward).into();
+        glossy +=
+            part.to_f64() * colour(ltc_rectangle_lookup(&surface, lobe, [a, b, d], toward, texels, false));
+        sum += part.to_f64();
+    }
+    let glossy = glossy / sum.max(f64::MIN_POSITIVE);
     Values::Colour([matte * diffuse, glossy * specular, glossy * fresnel])
 }
 
@@ -356,7 +368,12 @@ fn normalized(v: DVec3) -> DVec3 {
     (v / v.abs().max_element()).normalize()
 }
 
-fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<Vec<Values>> {
+fn by_device(
+    device: &Device,
+    table: &Table,
+    effects: Effects,
+    cases: &[Case],
+) -> anyhow::Result<Vec<Values>> {
     let mut batch = Batch::default();
     for (index, case) in cases.iter().enumerate() {
         let single = |v: DVec3| <[f32; 3]>::from(v.as_vec3());
@@ -370,7 +387,7 @@ fn by_device(device: &Device, table: &Table, cases: &[Case]) -> anyhow::Result<V
         let light = batch.add_light(&case.light);
         batch.pairs.push([index as u32, light]);
     }
-    let program = Program::wgsl(format!("{}\n{}", softbox::WGSL_INCLUDE, softbox::WGSL_EVALUATE));
+    let program = Program::wgsl(format!("{}\n{}", effects::wgsl(effects)?, softbox::WGSL_EVALUATE));
     let values = device.evaluate(&program, table, &batch)?;
     Ok(values.into_iter().map(|value| Values::White(value.map(f64::from))).collect())
 }

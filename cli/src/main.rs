@@ -8,6 +8,7 @@ mod model;
 mod package;
 mod prefilter;
 mod progress;
+mod quality;
 mod render;
 mod select;
 

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use std::time::Instant;
 
 use clap::Args;
-use softbox::effects::Effects;
+use softbox::effects::{Effects, Quality};
 use softbox::fit::Layout;
 use softbox::package::{self, Contents, Step};
 use softbox::scene::Scene;
@@ -31,6 +31,9 @@ pub struct BuildArguments {
     /// A scene file: the package holds what it calls for.
     #[arg(long, value_name = "FILE", conflicts_with_all = ["effects", "update"])]
     scene: Option<PathBuf>,
+    /// Quality level of the package: fast, standard, fine or finest; of the whole include where no effects are given.
+    #[arg(long, value_name = "LEVEL", conflicts_with = "update")]
+    quality: Option<Quality>,
     /// Write the translations and raw tables over those of a repository instead of a package.
     #[arg(long, value_name = "REPOSITORY", conflicts_with = "out")]
     update: Option<PathBuf>,
@@ -43,6 +46,10 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     let effects = match &arguments.scene {
         Some(scene) => Some(Scene::load(scene)?.effects()),
         None => arguments.effects.as_deref().map(str::parse::<Effects>).transpose()?,
+    };
+    let effects = match arguments.quality {
+        Some(level) => Some(level.of(effects.unwrap_or_else(Effects::standing))),
+        None => effects,
     };
     let contents = Contents { table_size: arguments.table_size, effects, ..Contents::default() };
     let bar = progress::bar("Building");

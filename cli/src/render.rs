@@ -10,6 +10,7 @@ use softbox::scene::{Comparison, Panel, Scene, check_png_path, render_truth, wri
 use softbox::table::Table;
 
 use crate::progress;
+use crate::quality::QualityArguments;
 
 /// Difference, over the mean of the truth, that has the full colour.
 const DIFFERENCE_SCALE: f64 = 0.2;
@@ -31,6 +32,8 @@ pub struct RenderArguments {
     /// Set of effects to draw with, such as quad,polygon+ggx+two-sided; what the scene calls for by default.
     #[arg(long, value_name = "SET")]
     pub effects: Option<String>,
+    #[command(flatten)]
+    pub quality: QualityArguments,
     /// Pixels in a row; 960, or 480 with ground truth.
     #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
     pub width: Option<u32>,
@@ -54,6 +57,7 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
         Some(text) => text.parse()?,
         None => scene.effects(),
     };
+    let effects = arguments.quality.of(effects);
     scene.check_effects(effects).with_context(|| arguments.scene.display().to_string())?;
     let with_truth = arguments.truth || arguments.difference;
     let width = arguments.width.unwrap_or(if with_truth { 480 } else { 960 });

@@ -12,12 +12,15 @@ use softbox::translate::{self, Target};
 
 use crate::bake::write_file;
 use crate::progress;
+use crate::quality::QualityArguments;
 
 #[derive(Args)]
 pub struct SelectArguments {
     /// The set of effects, such as quad,polygon+ggx+two-sided.
     #[arg(value_name = "SET", required_unless_present_any = ["list", "count"])]
     effects: Option<String>,
+    #[command(flatten)]
+    quality: QualityArguments,
     /// Language of the text.
     #[arg(long, value_enum, default_value = "wgsl")]
     target: Language,
@@ -50,7 +53,7 @@ enum Language {
 
 pub fn select(arguments: &SelectArguments) -> anyhow::Result<()> {
     let text = match &arguments.effects {
-        Some(effects) => selected(effects.parse()?, arguments.target)?,
+        Some(effects) => selected(arguments.quality.of(effects.parse()?), arguments.target)?,
         None if arguments.count => count()?,
         None => list(),
     };

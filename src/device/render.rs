@@ -5,7 +5,7 @@ use glam::DVec3;
 use wgpu::util::DeviceExt;
 
 use super::{Device, DeviceError, EvaluateLight};
-use crate::effects::Effects;
+use crate::effects::{Effect, Effects};
 use crate::scene::{Image, Light, Object, Scene, SceneError, Shape, sample_positions};
 use crate::table::{Layer, Table};
 use crate::texture::{Prefiltered, prefilter};
@@ -67,7 +67,8 @@ struct RenderSettings {
     sheen_layer: i32,
     diffuse_layer: i32,
     anisotropic_layer: i32,
-    spare: [u32; 3],
+    lobes_layer: i32,
+    spare: [u32; 2],
 }
 
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
@@ -202,7 +203,7 @@ impl Device {
     }
 
     /// The same with the effects of a given set, which may have more than the scene calls for. Energy compensation and
-    /// cheap horizons change the picture even of a scene that does not call for them.
+    /// what belongs to a quality level change the picture even of a scene that does not call for them.
     ///
     /// # Errors
     ///
@@ -249,7 +250,12 @@ impl Device {
             sheen_layer: layer(Layer::Sheen),
             diffuse_layer: layer(Layer::Diffuse),
             anisotropic_layer: layer(Layer::AnisotropicFirst),
-            spare: [0; 3],
+            lobes_layer: layer(if effects.contains(Effect::ThirdLobe) {
+                Layer::FirstOfThree
+            } else {
+                Layer::FirstOfTwo
+            }),
+            spare: [0; 2],
         };
         let row_work = u64::from(width) * u64::from(samples) * (1 + vertices.len() + objects.len()) as u64;
         let band = (BAND_WORK / row_work).clamp(1, u64::from(height)) as u32;

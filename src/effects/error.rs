@@ -14,6 +14,11 @@ pub enum EffectsError {
         /// The effect whose name is nearest.
         nearest: Effect,
     },
+    /// A name that no quality level has.
+    Quality {
+        /// The name.
+        text: String,
+    },
     /// Two separators without a name between them, or no text at all.
     Nameless {
         /// The whole text.
@@ -66,6 +71,10 @@ impl core::fmt::Display for EffectsError {
                     nearest.name(),
                     names.join(", ")
                 )
+            }
+            Self::Quality { text } => {
+                let names: Vec<_> = super::Quality::ALL.iter().map(|level| level.name()).collect();
+                write!(formatter, "the quality level {text:?} does not exist; all are {}", names.join(", "))
             }
             Self::Nameless { text } => write!(
                 formatter,

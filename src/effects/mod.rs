@@ -14,6 +14,7 @@
 //! ```
 
 mod error;
+mod quality;
 mod source;
 mod table;
 mod text;
@@ -22,6 +23,7 @@ mod wgsl;
 use core::ops::{BitAnd, BitOr, Sub};
 
 pub use error::EffectsError;
+pub use quality::Quality;
 #[cfg(feature = "translate")]
 pub(crate) use source::{Formula, words};
 use table::TABLE;
@@ -49,9 +51,10 @@ impl Effect {
         format!("LTC_{}", self.name().replace('-', "_").to_ascii_uppercase())
     }
 
-    /// Whether it is part of the include as it stands: everything is but what trades accuracy for cost.
+    /// Whether it is part of the include as it stands: everything is but what trades accuracy for cost or cost for
+    /// accuracy.
     pub const fn is_default(self) -> bool {
-        !matches!(self, Self::CheapHorizon)
+        !matches!(self, Self::CheapHorizon | Self::SecondLobe | Self::ThirdLobe)
     }
 
     const fn bit(self) -> u32 {
@@ -91,7 +94,7 @@ impl Effects {
         Self::declared(crate::WGSL_INCLUDE)
     }
 
-    /// What the include does as it stands: everything but what trades accuracy for cost.
+    /// What the include does as it stands: everything but what trades accuracy for cost or cost for accuracy.
     pub fn standing() -> Self {
         let present = Self::present();
         present.iter().filter(|effect| !effect.is_default()).fold(present, Self::without)
@@ -194,10 +197,17 @@ impl Effects {
         self.iter().flat_map(|effect| effect.entry().roots.iter().chain(with_lobe(effect)).copied()).collect()
     }
 
-    /// The layers of the table that the set reads, each once.
+    /// The layers of the table that the set reads, each once. Anisotropic surfaces are of one lobe; others read the
+    /// layers of as many as the set has.
     pub fn layers(self) -> Vec<Layer> {
+        let has = |effect: Effect| self.contains(effect);
+        let is_read = |layer: &Layer| match layer {
+            Layer::Shape | Layer::Amplitude => has(Effect::Anisotropic) || !has(Effect::SecondLobe),
+            Layer::FirstOfTwo | Layer::SecondOfTwo | Layer::WeightsOfTwo => !has(Effect::ThirdLobe),
+            _ => true,
+        };
         let mut layers: Vec<Layer> = Vec::new();
-        for layer in self.iter().flat_map(|effect| effect.entry().layers) {
+        for layer in self.iter().flat_map(|effect| effect.entry().layers).filter(|layer| is_read(layer)) {
             if !layers.contains(layer) {
                 layers.push(*layer);
             }

@@ -26,15 +26,43 @@ pub enum Layer {
     AnisotropicFirst,
     /// The second half, right behind the first.
     AnisotropicSecond,
+    /// The shape of the first of two lobes.
+    FirstOfTwo,
+    /// The shape of the second of two lobes.
+    SecondOfTwo,
+    /// The weights of both for F = 1, then those for Schlick's part.
+    WeightsOfTwo,
+    /// The shape of the first of three lobes.
+    FirstOfThree,
+    /// The shape of the second of three lobes.
+    SecondOfThree,
+    /// The shape of the third lobe.
+    ThirdOfThree,
+    /// The weights of all three for F = 1.
+    WeightsOfThree,
+    /// Their weights for Schlick's part.
+    SchlickOfThree,
 }
 
 impl Layer {
-    /// The layers that every specular surface needs, at the places where the include's
+    /// The layers of a single specular lobe, at the places where the include's
     /// `ltc_lobe_from_table` looks for them.
     pub const BASE: [Self; 2] = [Self::Shape, Self::Amplitude];
 
     /// The layers that anisotropic surfaces need besides, for tables of 64 × 64 texels.
     pub const ANISOTROPIC: [Self; 2] = [Self::AnisotropicFirst, Self::AnisotropicSecond];
+
+    /// The layers of a sum of two lobes, one behind the other.
+    pub const TWO_LOBES: [Self; 3] = [Self::FirstOfTwo, Self::SecondOfTwo, Self::WeightsOfTwo];
+
+    /// The layers of a sum of three lobes, one behind the other.
+    pub const THREE_LOBES: [Self; 5] = [
+        Self::FirstOfThree,
+        Self::SecondOfThree,
+        Self::ThirdOfThree,
+        Self::WeightsOfThree,
+        Self::SchlickOfThree,
+    ];
 
     /// Bytes of the layer with `size` texels along each axis.
     pub const fn bytes(self, size: usize) -> usize {
@@ -99,15 +127,15 @@ macro_rules! table {
 // as long as the chain ends.
 #[rustfmt::skip]
 table! {
-    Quad     Light "quad"     "ltc_use_quad"     needs [] roots ["ltc_quad", "ltc_quad_begin", "ltc_quad_diffuse", "ltc_shading_quad"] with_lobe ["ltc_quad_lobe"] has_lobe false layers [] "Convex quads and triangles.";
-    Polygon  Light "polygon"  "ltc_use_polygon"  needs [] roots ["ltc_polygon_begin", "ltc_polygon_add", "ltc_polygon_end", "ltc_outline_begin", "ltc_outline_add", "ltc_outline_diffuse", "ltc_shading_polygon_begin", "ltc_shading_polygon_add", "ltc_shading_polygon_end"] with_lobe ["ltc_outline_lobe_begin", "ltc_outline_lobe_add", "ltc_outline_lobe"] has_lobe false layers [] "Polygons of any number of vertices, convex or not.";
-    Disk     Light "disk"     "ltc_use_disk"     needs [] roots ["ltc_disk", "ltc_disk_begin", "ltc_disk_diffuse", "ltc_shading_disk"] with_lobe ["ltc_disk_lobe"] has_lobe false layers [] "Disks and ellipses.";
-    Sphere   Light "sphere"   "ltc_use_sphere"   needs [] roots ["ltc_sphere", "ltc_sphere_begin", "ltc_sphere_diffuse", "ltc_shading_sphere"] with_lobe ["ltc_sphere_lobe"] has_lobe false layers [] "Spheres.";
-    Tube     Light "tube"     "ltc_use_tube"     needs [] roots ["ltc_tube", "ltc_tube_begin", "ltc_tube_diffuse", "ltc_shading_tube"] with_lobe ["ltc_tube_lobe"] has_lobe false layers [] "Cylinders, from thin lines on.";
-    Textured Light "textured" "ltc_use_textured" needs [Quad] roots ["ltc_quad_toward", "ltc_rectangle_diffuse_lookup", "ltc_texture_fetch", "ltc_texture_fetch_pair", "ltc_reflected_picture"] with_lobe ["ltc_rectangle_lookup"] has_lobe false layers [] "Rectangles that show an image.";
+    Quad     Light "quad"     "ltc_use_quad"     needs [] roots ["ltc_quad", "ltc_quad_begin", "ltc_quad_diffuse", "ltc_shading_quad"] with_lobe ["ltc_quad_lobe", "ltc_quad_specular"] has_lobe false layers [] "Convex quads and triangles.";
+    Polygon  Light "polygon"  "ltc_use_polygon"  needs [] roots ["ltc_polygon_begin", "ltc_polygon_add", "ltc_polygon_end", "ltc_outline_begin", "ltc_outline_add", "ltc_outline_diffuse", "ltc_shading_polygon_begin", "ltc_shading_polygon_add", "ltc_shading_polygon_end"] with_lobe ["ltc_outline_lobe_begin", "ltc_outline_lobe_add", "ltc_outline_lobe", "ltc_outline_lobes_begin", "ltc_outline_lobes_add", "ltc_outline_specular"] has_lobe false layers [] "Polygons of any number of vertices, convex or not.";
+    Disk     Light "disk"     "ltc_use_disk"     needs [] roots ["ltc_disk", "ltc_disk_begin", "ltc_disk_diffuse", "ltc_shading_disk"] with_lobe ["ltc_disk_lobe", "ltc_disk_specular"] has_lobe false layers [] "Disks and ellipses.";
+    Sphere   Light "sphere"   "ltc_use_sphere"   needs [] roots ["ltc_sphere", "ltc_sphere_begin", "ltc_sphere_diffuse", "ltc_shading_sphere"] with_lobe ["ltc_sphere_lobe", "ltc_sphere_specular"] has_lobe false layers [] "Spheres.";
+    Tube     Light "tube"     "ltc_use_tube"     needs [] roots ["ltc_tube", "ltc_tube_begin", "ltc_tube_diffuse", "ltc_shading_tube"] with_lobe ["ltc_tube_lobe", "ltc_tube_specular"] has_lobe false layers [] "Cylinders, from thin lines on.";
+    Textured Light "textured" "ltc_use_textured" needs [Quad] roots ["ltc_quad_toward", "ltc_rectangle_diffuse_lookup", "ltc_texture_fetch", "ltc_texture_fetch_pair", "ltc_reflected_picture"] with_lobe ["ltc_rectangle_lookup", "ltc_quad_picture"] has_lobe false layers [] "Rectangles that show an image.";
 
     Lambert            Surface "lambert"             ""                            needs [] roots ["ltc_surface", "ltc_in_range", "ltc_material", "ltc_shading", "ltc_reflected"] with_lobe [] has_lobe false layers [] "Diffuse reflection by Lambert's law; part of every set.";
-    Ggx                Surface "ggx"                 "ltc_use_ggx"                 needs [] roots ["ltc_table_coordinates", "ltc_lobe", "ltc_lobe_from_table", "ltc_reflectance", "ltc_lobe_value"] with_lobe [] has_lobe true layers [Layer::Shape, Layer::Amplitude] "Specular reflection of a rough surface.";
+    Ggx                Surface "ggx"                 "ltc_use_ggx"                 needs [] roots ["ltc_table_coordinates", "ltc_lobe", "ltc_lobe_from_table", "ltc_reflectance", "ltc_shape", "ltc_shape_lobe", "ltc_lobe_value", "ltc_lobes_of", "ltc_lobes_from_table", "ltc_lobes_together"] with_lobe [] has_lobe true layers [Layer::Shape, Layer::Amplitude] "Specular reflection of a rough surface.";
     ClearCoat          Surface "clearcoat"           "ltc_use_clearcoat"           needs [Ggx] roots ["ltc_surface_with_roughness", "ltc_coat_over"] with_lobe [] has_lobe true layers [] "A second, clear layer on top.";
     Sheen              Surface "sheen"               "ltc_use_sheen"               needs [] roots ["ltc_surface_with_roughness", "ltc_sheen_lobe", "ltc_sheen_lobe_from_table", "ltc_sheen_over"] with_lobe [] has_lobe true layers [Layer::Sheen] "Reflection of fibres at grazing angles.";
     RoughDiffuse       Surface "rough-diffuse"       "ltc_use_rough_diffuse"       needs [] roots ["ltc_surface_with_roughness", "ltc_diffuse_lobe", "ltc_diffuse_lobe_from_table", "ltc_rough_diffuse"] with_lobe [] has_lobe true layers [Layer::Diffuse] "Diffuse reflection of a rough surface.";
@@ -117,4 +145,6 @@ table! {
     TwoSided     Option "two-sided"     "ltc_use_two_sided"     needs [Quad, Polygon, Disk] roots [] with_lobe [] has_lobe false layers [] "Lights that emit from both sides.";
     Caps         Option "caps"          "ltc_use_caps"          needs [Tube] roots [] with_lobe [] has_lobe false layers [] "Tubes with ends that emit.";
     CheapHorizon Option "cheap-horizon" "ltc_use_cheap_horizon" needs [Quad] roots [] with_lobe [] has_lobe false layers [] "Quads cut at the horizons by a cheap approximation.";
+    SecondLobe   Option "second-lobe"   "ltc_use_second_lobe"   needs [Ggx] roots ["ltc_two_lobes"] with_lobe [] has_lobe false layers [Layer::FirstOfTwo, Layer::SecondOfTwo, Layer::WeightsOfTwo] "Isotropic specular reflection by the sum of two lobes.";
+    ThirdLobe    Option "third-lobe"    "ltc_use_third_lobe"    needs [SecondLobe] roots ["ltc_three_lobes"] with_lobe [] has_lobe false layers [Layer::FirstOfThree, Layer::SecondOfThree, Layer::ThirdOfThree, Layer::WeightsOfThree, Layer::SchlickOfThree] "Isotropic specular reflection by the sum of three lobes.";
 }

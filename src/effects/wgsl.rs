@@ -71,6 +71,10 @@ pub fn wgsl_from(include: &str, effects: Effects) -> Result<String, EffectsError
                 Some(false) if item.kind == "override" => {
                     text.push_str(&format!("const {}: bool = false;\n", item.name));
                 }
+                // One that is off unless it is asked for has been.
+                Some(true) if item.kind == "override" => {
+                    text.push_str(&item.text.replace("bool = false;", "bool = true;"));
+                }
                 _ => text.push_str(&item.text),
             }
         }

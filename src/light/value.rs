@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::{Light, is_convex_quad};
 use crate::shade::{
-    LtcLobe, LtcSurface, Real, Vector, ltc_disk, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end,
+    LobeSum, LtcSurface, Real, Vector, ltc_disk, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end,
     ltc_quad, ltc_sphere, ltc_tube,
 };
 
@@ -16,23 +16,23 @@ use crate::shade::{
 /// If there is no point, or `convex_quad` is set and there are not four.
 pub fn polygon_value<R: Real>(
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
+    lobes: &impl LobeSum<R>,
     points: &[R::Vec3],
     convex_quad: bool,
     two_sided: bool,
 ) -> R::Vec3 {
     if convex_quad {
-        return ltc_quad(surface, lobe, [points[0], points[1], points[2], points[3]], two_sided);
+        return ltc_quad(surface, lobes, [points[0], points[1], points[2], points[3]], two_sided);
     }
     let mut polygon = ltc_polygon_begin(surface, points[0]);
     for point in &points[1..] {
-        ltc_polygon_add(&mut polygon, surface, lobe, *point);
+        ltc_polygon_add(&mut polygon, surface, lobes, *point);
     }
-    ltc_polygon_end(&mut polygon, surface, lobe, two_sided)
+    ltc_polygon_end(&mut polygon, surface, lobes, two_sided)
 }
 
 /// The value (diffuse, specular, fresnel) of any light.
-pub fn light_value<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, light: &Light) -> R::Vec3 {
+pub fn light_value<R: Real>(surface: &LtcSurface<R>, lobes: &impl LobeSum<R>, light: &Light) -> R::Vec3 {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     match light {
         Light::Polygon { points, two_sided } => {
@@ -42,14 +42,14 @@ pub fn light_value<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, light: &
             }
             let convex = is_convex_quad(&points);
             let points: Vec<R::Vec3> = points.iter().map(|point| v(*point)).collect();
-            polygon_value(surface, lobe, &points, convex, *two_sided)
+            polygon_value(surface, lobes, &points, convex, *two_sided)
         }
         Light::Tube { start, end, radius, caps } => {
-            ltc_tube(surface, lobe, v(*start), v(*end), R::new(*radius), *caps)
+            ltc_tube(surface, lobes, v(*start), v(*end), R::new(*radius), *caps)
         }
         Light::Disk { center, half_x, half_y, two_sided } => {
-            ltc_disk(surface, lobe, v(*center), v(*half_x), v(*half_y), *two_sided)
+            ltc_disk(surface, lobes, v(*center), v(*half_x), v(*half_y), *two_sided)
         }
-        Light::Sphere { center, radius } => ltc_sphere(surface, lobe, v(*center), R::new(*radius)),
+        Light::Sphere { center, radius } => ltc_sphere(surface, lobes, v(*center), R::new(*radius)),
     }
 }

@@ -19,13 +19,14 @@ pub(super) fn guide(contents: &Contents, package: &Package) -> String {
         text.push_str(&format!("| `{path}` | {purpose} |\n"));
     }
     text.push_str(
-        "| `spirv/ltc_evaluate.spv` | Vulkan: a kernel that evaluates pairs of surfaces and lights, one lobe each |\n",
+        "| `spirv/ltc_evaluate.spv` | Vulkan: a kernel that evaluates pairs of surfaces and lights |\n",
     );
     let names: Vec<String> =
         contents.containers.iter().map(|container| format!("`.{}`", container.extension())).collect();
     text.push_str(&format!("| `table/ltc` ({}) | the table for these shaders |\n", names.join(", ")));
     if contents.effects.is_none() && size == crate::TABLE_SIZE {
         text.push_str("| `table/ltc_all` (the same) | the same with the layers of every surface |\n");
+        text.push_str("| `table/ltc_two_lobes`, `table/ltc_three_lobes` (the same) | those for the quality levels fine and finest, in its place |\n");
     }
     if contents.compatible {
         text.push_str(
@@ -38,7 +39,7 @@ pub(super) fn guide(contents: &Contents, package: &Package) -> String {
         "\n## Use\n\n\
          1. Create a texture array of {size} × {size} texels and {layers} layers, RGBA16F, without mipmaps, from\n   \
             `table/ltc`, and a sampler that filters linearly and clamps to the edge.\n\
-         2. For each surface point: `ltc_surface`, then `ltc_lobe_from_table`. Both serve all lights.\n\
+         2. For each surface point: `ltc_surface`, then `ltc_lobes_from_table`. Both serve all lights.\n\
          3. For each light: `ltc_quad` for a convex quad, `ltc_disk`, `ltc_sphere`, `ltc_tube`, or `ltc_polygon_begin`,\n   \
             `ltc_polygon_add` for each further vertex and `ltc_polygon_end`. They return (diffuse, specular, fresnel).\n\
          4. Reflected radiance = light radiance × (base colour × diffuse\n   \
@@ -48,12 +49,14 @@ pub(super) fn guide(contents: &Contents, package: &Package) -> String {
          In WGSL:\n\n\
          ```wgsl\n\
          let surface = ltc_surface(position, normal, eye - position, roughness);\n\
-         let lobe = ltc_lobe_from_table(surface, table, table_sampler, {size}.0);\n\
-         let value = ltc_quad(surface, lobe, corner_a, corner_b, corner_c, corner_d, false);\n\
+         let lobes = ltc_lobes_from_table(surface, table, table_sampler, {size}.0, 0);\n\
+         let value = ltc_quad(surface, lobes, corner_a, corner_b, corner_c, corner_d, false);\n\
          let reflected = radiance * (base_colour * value.x + ltc_reflectance(value, f0, f90));\n\
          ```\n\n\
          GLSL takes one `sampler2DArray` in place of texture and sampler. To sample the table in another\n\
-         way, fetch layers 0 and 1 at `ltc_table_coordinates(surface, {size}.0)` and call `ltc_lobe`.\n\n\
+         way, fetch the layers at `ltc_table_coordinates(surface, {size}.0)`: two for one lobe, for\n\
+         `ltc_lobes_of(ltc_lobe(...))`; three for two lobes, for `ltc_two_lobes`; five for three, for\n\
+         `ltc_three_lobes`.\n\n\
          ## Table files\n\n",
     ));
     for container in &contents.containers {

@@ -132,6 +132,8 @@ pub fn build(
                         format!("{name}_all"),
                         with_layers(table.clone(), Effects::standing(), progress)?,
                     ));
+                    written.push((format!("{name}_two_lobes"), Table::two_lobes()));
+                    written.push((format!("{name}_three_lobes"), Table::three_lobes()));
                 }
                 None => {}
             }
@@ -199,7 +201,8 @@ fn with_layers(
 ) -> Result<Table, PackageError> {
     let (size, layers) = (table.size(), effects.layers());
     if size == crate::TABLE_SIZE {
-        return Ok(table.completed(&layers));
+        let whole = table.completed(&layers);
+        return Ok(if layers.is_empty() { whole } else { whole.only(&layers) });
     }
     if layers.contains(&Layer::AnisotropicFirst) {
         return Err(PackageError::Anisotropic { effects, size });

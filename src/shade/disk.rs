@@ -6,8 +6,9 @@ use super::cone::{
 };
 use super::quad::{OVER_TWO_PI, ltc_angle_excess};
 use super::real::{Real, Vector};
+use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal, ltc_value,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal,
 };
 
 /// An elliptical disk, placed over a surface: what all lobes share of the work on it.
@@ -150,7 +151,7 @@ fn upward<R: Real>(v: R::Vec3) -> R::Vec3 {
 /// error.
 pub fn ltc_disk<R: Real>(
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
+    lobes: &impl LobeSum<R>,
     centre: R::Vec3,
     half_x: R::Vec3,
     half_y: R::Vec3,
@@ -160,7 +161,8 @@ pub fn ltc_disk<R: Real>(
     if !disk.reaches {
         return R::Vec3::new(R::new(0.0), R::new(0.0), R::new(0.0));
     }
-    ltc_value(surface, lobe, ltc_disk_diffuse(&disk), ltc_disk_lobe(&disk, lobe))
+    let specular = ltc_lobes_value(surface, lobes, |lobe| ltc_disk_lobe(&disk, lobe));
+    with_form_factor(ltc_disk_diffuse(&disk), specular)
 }
 
 /// Places a sphere over a surface; see [`ltc_sphere`].
@@ -240,7 +242,7 @@ pub fn ltc_sphere_lobe<R: Real>(sphere: &LtcSphere<R>, lobe: &LtcLobe<R>) -> R::
 /// The value (diffuse, specular, fresnel) of a sphere light; see the include for its domain and its error.
 pub fn ltc_sphere<R: Real>(
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
+    lobes: &impl LobeSum<R>,
     centre: R::Vec3,
     radius: R,
 ) -> R::Vec3 {
@@ -248,5 +250,6 @@ pub fn ltc_sphere<R: Real>(
     if !sphere.disk.reaches {
         return R::Vec3::new(R::new(0.0), R::new(0.0), R::new(0.0));
     }
-    ltc_value(surface, lobe, ltc_sphere_diffuse(&sphere), ltc_sphere_lobe(&sphere, lobe))
+    let specular = ltc_lobes_value(surface, lobes, |lobe| ltc_sphere_lobe(&sphere, lobe));
+    with_form_factor(ltc_sphere_diffuse(&sphere), specular)
 }

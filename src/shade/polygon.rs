@@ -4,9 +4,10 @@ use super::quad::{
     OVER_TWO_PI, ltc_above_tolerance, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above, ltc_offset,
 };
 use super::real::{Real, Vector};
+use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
-    ltc_transform, ltc_transform_normal, ltc_value, unit,
+    ltc_transform, ltc_transform_normal, unit,
 };
 
 /// State of a polygon that is given vertex by vertex, and its last edge, cut at the surface's horizon: what all
@@ -32,11 +33,11 @@ pub struct LtcOutlineLobe<R: Real> {
     sum: R::Vec3,
 }
 
-/// A polygon's outline and the lobe that it lights.
+/// A polygon's outline and the lobes that it lights.
 #[derive(Clone, Copy, Debug)]
 pub struct LtcPolygon<R: Real> {
     outline: LtcOutline<R>,
-    lobe: LtcOutlineLobe<R>,
+    sums: [LtcOutlineLobe<R>; 3],
 }
 
 /// A point and its offset from the polygon's first vertex, which is known more precisely than the
@@ -142,32 +143,38 @@ pub fn ltc_outline_lobe<R: Real>(
 
 /// Starts a polygon at its first vertex.
 pub fn ltc_polygon_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> LtcPolygon<R> {
-    LtcPolygon { outline: ltc_outline_begin(surface, corner), lobe: ltc_outline_lobe_begin() }
+    LtcPolygon { outline: ltc_outline_begin(surface, corner), sums: [ltc_outline_lobe_begin(); 3] }
 }
 
 /// Adds the next vertex.
 pub fn ltc_polygon_add<R: Real>(
     polygon: &mut LtcPolygon<R>,
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
+    lobes: &impl LobeSum<R>,
     corner: R::Vec3,
 ) {
     ltc_outline_add(&mut polygon.outline, surface, corner);
-    ltc_outline_lobe_add(&mut polygon.lobe, &polygon.outline, lobe);
+    for (sum, lobe) in polygon.sums.iter_mut().zip(lobes.lobes()) {
+        ltc_outline_lobe_add(sum, &polygon.outline, lobe);
+    }
 }
 
 /// The value (diffuse, specular, fresnel) of the polygon whose vertices have all been added.
 pub fn ltc_polygon_end<R: Real>(
     polygon: &mut LtcPolygon<R>,
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
+    lobes: &impl LobeSum<R>,
     two_sided: bool,
 ) -> R::Vec3 {
     let first = polygon.outline.first;
-    ltc_polygon_add(polygon, surface, lobe, first);
+    ltc_polygon_add(polygon, surface, lobes, first);
     let form_factor = ltc_outline_diffuse(&polygon.outline, two_sided);
-    let toward = ltc_outline_lobe(&polygon.outline, &polygon.lobe, two_sided);
-    ltc_value(surface, lobe, form_factor, toward)
+    let mut sums = polygon.sums.iter();
+    let specular = ltc_lobes_value(surface, lobes, |_| {
+        let sum = sums.next().expect("there are as many sums as a sum has lobes at most");
+        ltc_outline_lobe(&polygon.outline, sum, two_sided)
+    });
+    with_form_factor(form_factor, specular)
 }
 
 /// A directed edge.

@@ -1,9 +1,10 @@
 //! Edges and convex quads.
 
 use super::real::{Real, Vector};
+use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
-    ltc_transform, ltc_transform_normal, ltc_value, unit,
+    ltc_transform, ltc_transform_normal, unit,
 };
 
 pub(super) const OVER_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
@@ -343,7 +344,7 @@ pub fn ltc_quad_lobe<R: Real>(quad: &LtcQuad<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
 /// and its error.
 pub fn ltc_quad<R: Real>(
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
+    lobes: &impl LobeSum<R>,
     vertices: [R::Vec3; 4],
     two_sided: bool,
 ) -> R::Vec3 {
@@ -352,7 +353,8 @@ pub fn ltc_quad<R: Real>(
         let zero: R = R::new(0.0);
         return R::Vec3::new(zero, zero, zero);
     }
-    ltc_value(surface, lobe, ltc_quad_diffuse(surface, &quad), ltc_quad_lobe(&quad, lobe))
+    let specular = ltc_lobes_value(surface, lobes, |lobe| ltc_quad_lobe(&quad, lobe));
+    with_form_factor(ltc_quad_diffuse(surface, &quad), specular)
 }
 
 fn largest<R: Real>(values: [R; 3]) -> R {

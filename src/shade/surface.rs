@@ -188,18 +188,6 @@ pub fn ltc_specular<R: Real>(
     [coverage * lobe.albedo, coverage * (lobe.albedo * schlick * (one - whole) + lobe.fresnel * whole)].into()
 }
 
-/// The value (diffuse, specular, fresnel) from the form factor over the surface's horizon and the vector form
-/// factor over both horizons in the lobe's space, both of the light that the surface receives.
-pub fn ltc_value<R: Real>(
-    surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
-    form_factor: R,
-    toward: R::Vec3,
-) -> R::Vec3 {
-    let [specular, fresnel] = ltc_lobe_value(surface, lobe, toward).into();
-    R::Vec3::new(form_factor, specular, fresnel)
-}
-
 /// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
 pub fn ltc_lobe_value<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, toward: R::Vec3) -> R::Vec2 {
     let coverage = (toward.z() / lobe.share).clamp(R::new(0.0), R::new(1.0));

@@ -2,8 +2,9 @@
 
 use super::quad::ltc_angle_excess;
 use super::real::{Real, Vector};
+use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_specular, ltc_transform,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_transform,
     ltc_transform_normal,
 };
 
@@ -266,15 +267,13 @@ pub fn ltc_tube_lobe<R: Real>(tube: &LtcTube<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
 /// The value (diffuse, specular, fresnel) of a tube light; see the include for its domain and its error.
 pub fn ltc_tube<R: Real>(
     surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
+    lobes: &impl LobeSum<R>,
     start: R::Vec3,
     end: R::Vec3,
     radius: R,
     caps: bool,
 ) -> R::Vec3 {
     let tube = ltc_tube_begin(surface, start, end, radius, caps);
-    let toward = ltc_tube_lobe(&tube, lobe);
-    let coverage = saturate(toward.z() / lobe.share);
-    let [specular, fresnel] = ltc_specular(surface, lobe, coverage, toward).into();
-    R::Vec3::new(ltc_tube_diffuse(surface, &tube), specular, fresnel)
+    let specular = ltc_lobes_value(surface, lobes, |lobe| ltc_tube_lobe(&tube, lobe));
+    with_form_factor(ltc_tube_diffuse(surface, &tube), specular)
 }

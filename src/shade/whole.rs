@@ -13,6 +13,7 @@ use super::polygon::{
 };
 use super::quad::{ltc_quad_begin, ltc_quad_diffuse, ltc_quad_lobe, ltc_quad_toward};
 use super::real::{Real, Vector};
+use super::several::{LtcLobes, ltc_lobes_together, ltc_lobes_value};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_lobe_value, ltc_reflectance, ltc_surface,
 };
@@ -76,10 +77,10 @@ impl<R: Real> LtcMaterial<R> {
 pub struct LtcShading<R: Real> {
     /// The point and its frame.
     pub surface: LtcSurface<R>,
-    /// The specular lobe.
-    pub specular: Option<LtcLobe<R>>,
-    /// The coat's lobe.
-    pub coat: Option<LtcLobe<R>>,
+    /// The specular lobes; an anisotropic surface has one.
+    pub specular: Option<LtcLobes<R>>,
+    /// The coat's lobes.
+    pub coat: Option<LtcLobes<R>>,
     /// The sheen's lobe.
     pub sheen: Option<LtcLobe<R>>,
     /// The lobe of a rough diffuse part.
@@ -157,14 +158,15 @@ pub fn ltc_shading<R: Real>(
     let specular = if on(Effect::Anisotropic) & (material.anisotropy > R::new(0.0)) {
         let alpha = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         let [along, across] = alpha.into();
-        Some(table.anisotropic_lobe(&surface, &ltc_anisotropy(&surface, material.grain, along, across)))
+        let anisotropy = ltc_anisotropy(&surface, material.grain, along, across);
+        Some(LtcLobes::new(&[table.anisotropic_lobe(&surface, &anisotropy)]))
     } else {
-        on(Effect::Ggx).then(|| table.lobe(&surface))
+        on(Effect::Ggx).then(|| table.lobes(&surface, effects))
     };
     LtcShading {
         surface,
         specular,
-        coat: on(Effect::ClearCoat).then(|| table.lobe(&with(material.coat_roughness))),
+        coat: on(Effect::ClearCoat).then(|| table.lobes(&with(material.coat_roughness), effects)),
         sheen: on(Effect::Sheen).then(|| table.sheen_lobe(&with(material.sheen_roughness))),
         rough: on(Effect::RoughDiffuse).then(|| table.diffuse_lobe(&with(material.diffuse_roughness))),
         energy_compensation: on(Effect::EnergyCompensation),
@@ -178,8 +180,8 @@ fn received<R: Real>(
     toward: impl Fn(&LtcLobe<R>) -> R::Vec3,
 ) -> LtcReceived<R> {
     let zero: R = R::new(0.0);
-    let glossy = |lobe: &Option<LtcLobe<R>>| match lobe {
-        Some(lobe) => ltc_lobe_value(&shading.surface, lobe, toward(lobe)),
+    let glossy = |lobes: &Option<LtcLobes<R>>| match lobes {
+        Some(lobes) => ltc_lobes_value(&shading.surface, lobes, &toward),
         None => [zero, zero].into(),
     };
     let plain = |lobe: &Option<LtcLobe<R>>| match lobe {
@@ -280,12 +282,12 @@ pub fn ltc_reflected<R: Real>(
         let surface = ltc_surface_with_roughness(&shading.surface, material.diffuse_roughness);
         radiance = ltc_rough_diffuse(&surface, rough, value(received.rough, zero), material.base_colour);
     }
-    if let Some(lobe) = &shading.specular {
+    if let Some(lobes) = &shading.specular {
         let [specular, fresnel] = received.specular.into();
         let (normal, grazing) = (material.normal_reflectance, material.grazing_reflectance);
         let mut glossy = ltc_reflectance::<R>(value(specular, fresnel), normal, grazing);
         if shading.energy_compensation {
-            let gain = ltc_energy_compensation(lobe, normal);
+            let gain = ltc_energy_compensation(&ltc_lobes_together(lobes), normal);
             glossy = R::Vec3::new(glossy.x() * gain.x(), glossy.y() * gain.y(), glossy.z() * gain.z());
         }
         radiance = radiance + glossy;
@@ -296,7 +298,8 @@ pub fn ltc_reflected<R: Real>(
     if let Some(coat) = &shading.coat {
         let [gloss, fresnel] = received.coat.into();
         let (reflectance, weight) = (material.coat_reflectance, material.coat);
-        radiance = ltc_coat_over(radiance, coat, value(gloss, fresnel), reflectance, weight);
+        radiance =
+            ltc_coat_over(radiance, &ltc_lobes_together(coat), value(gloss, fresnel), reflectance, weight);
     }
     radiance
 }
@@ -340,14 +343,30 @@ pub fn ltc_reflected_picture<R: Real>(
         let toward = ltc_quad_lobe(&quad, lobe);
         (toward, ltc_rectangle_lookup(surface, lobe, corners, toward, texels, false))
     };
-    if let Some(lobe) = &shading.specular {
-        let (toward, at) = look(lobe);
-        radiance =
-            radiance + part(LtcReceived { specular: ltc_lobe_value(surface, lobe, toward), ..none }, at);
+    // Of several lobes each sees its own colour; Schlick's part shares that of the specular one.
+    let several = |lobes: &LtcLobes<R>| {
+        let mut value = [zero, zero];
+        let mut colour = R::Vec3::new(zero, zero, zero);
+        for lobe in lobes.as_slice() {
+            let (toward, at) = look(lobe);
+            let [specular, fresnel] = ltc_lobe_value(surface, lobe, toward).into();
+            value = [value[0] + specular, value[1] + fresnel];
+            let share = specular / value[0].max(R::new(LTC_TINY));
+            colour = colour + (sample(at.place, at.level) - colour) * share;
+        }
+        (value.into(), colour)
+    };
+    let coloured = |received: LtcReceived<R>, colour: R::Vec3| {
+        let light = ltc_reflected(shading, material, &received);
+        R::Vec3::new(light.x() * colour.x(), light.y() * colour.y(), light.z() * colour.z())
+    };
+    if let Some(lobes) = &shading.specular {
+        let (specular, colour) = several(lobes);
+        radiance = radiance + coloured(LtcReceived { specular, ..none }, colour);
     }
-    if let Some(lobe) = &shading.coat {
-        let (toward, at) = look(lobe);
-        radiance = radiance + part(LtcReceived { coat: ltc_lobe_value(surface, lobe, toward), ..none }, at);
+    if let Some(lobes) = &shading.coat {
+        let (coat, colour) = several(lobes);
+        radiance = radiance + coloured(LtcReceived { coat, ..none }, colour);
     }
     if let Some(lobe) = &shading.sheen {
         let (toward, at) = look(lobe);

@@ -13,11 +13,13 @@ pub use container::{Container, ContainerError};
 pub use pack::clipped_sphere;
 
 pub use crate::effects::Layer;
+use crate::effects::{Effect, Effects};
 
 use half::f16;
 
 use crate::shade::{
-    LtcLobe, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface, ltc_table_coordinates,
+    LtcLobe, LtcLobes, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface,
+    ltc_table_coordinates,
 };
 
 /// A table of half-precision texels: layers of `size` × `size` texels of four numbers, at first
@@ -89,6 +91,18 @@ impl Table {
             .expect("the embedded layer is whole")
     }
 
+    /// The embedded layers of a sum of two lobes, for GGX.
+    pub fn two_lobes() -> Self {
+        Self::from_layers(crate::TABLE_SIZE, &Layer::TWO_LOBES, crate::TABLE_TWO_LOBES)
+            .expect("the embedded layers are whole")
+    }
+
+    /// The embedded layers of a sum of three lobes, for GGX.
+    pub fn three_lobes() -> Self {
+        Self::from_layers(crate::TABLE_SIZE, &Layer::THREE_LOBES, crate::TABLE_THREE_LOBES)
+            .expect("the embedded layers are whole")
+    }
+
     /// This table with the layers of another one behind its own.
     ///
     /// # Panics
@@ -123,6 +137,12 @@ impl Table {
     pub fn completed(self, layers: &[Layer]) -> Self {
         let embedded = |layer: Layer| match layer {
             Layer::Shape | Layer::Amplitude => Self::default(),
+            Layer::FirstOfTwo | Layer::SecondOfTwo | Layer::WeightsOfTwo => Self::two_lobes(),
+            Layer::FirstOfThree
+            | Layer::SecondOfThree
+            | Layer::ThirdOfThree
+            | Layer::WeightsOfThree
+            | Layer::SchlickOfThree => Self::three_lobes(),
             Layer::Sheen => Self::sheen(),
             Layer::Diffuse => Self::diffuse(),
             Layer::AnisotropicFirst | Layer::AnisotropicSecond => {
@@ -176,6 +196,35 @@ impl Table {
             Ok(Self { size, layers: layers.to_vec(), texels })
         } else {
             Err(error)
+        }
+    }
+
+    /// The lobes of a surface: as many as the effects say.
+    ///
+    /// # Panics
+    ///
+    /// If the table lacks their layers.
+    pub fn lobes<R: Real>(&self, surface: &LtcSurface<R>, effects: Effects) -> LtcLobes<R> {
+        if !effects.contains(Effect::SecondLobe) {
+            return LtcLobes::new(&[self.lobe(surface)]);
+        }
+        let at = ltc_table_coordinates(surface, R::new(self.size as f64));
+        let texel = |layer: Layer| -> [R; 4] {
+            let index = self.index(layer).unwrap_or_else(|| panic!("the table has no layer {layer:?}"));
+            self.sample::<R>(index, at).into()
+        };
+        let lobe = |shape: Layer, weight: R, schlick: R| {
+            let zero: R = R::new(0.0);
+            ltc_lobe(surface, texel(shape).into(), [weight, schlick, zero, zero].into())
+        };
+        if effects.contains(Effect::ThirdLobe) {
+            let (weights, schlick) = (texel(Layer::WeightsOfThree), texel(Layer::SchlickOfThree));
+            let shapes = [Layer::FirstOfThree, Layer::SecondOfThree, Layer::ThirdOfThree];
+            LtcLobes::new(&core::array::from_fn::<_, 3, _>(|i| lobe(shapes[i], weights[i], schlick[i])))
+        } else {
+            let weights = texel(Layer::WeightsOfTwo);
+            let shapes = [Layer::FirstOfTwo, Layer::SecondOfTwo];
+            LtcLobes::new(&core::array::from_fn::<_, 2, _>(|i| lobe(shapes[i], weights[i], weights[i + 2])))
         }
     }
 

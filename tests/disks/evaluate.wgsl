@@ -29,12 +29,12 @@ fn evaluate_disks(@builtin(global_invocation_id) invocation: vec3<u32>) {
     }
     let it = cases[index];
     let surface = ltc_surface(it.position, it.normal, it.view, it.roughness);
-    let lobe = ltc_lobe_from_table(surface, table, table_sampler, f32(textureDimensions(table).x));
+    let lobes = ltc_lobes_from_table(surface, table, table_sampler, f32(textureDimensions(table).x), 0);
     var value: vec3<f32>;
     if (it.kind > 1.5) {
-        value = ltc_sphere(surface, lobe, it.center, it.radius);
+        value = ltc_sphere(surface, lobes, it.center, it.radius);
     } else {
-        value = ltc_disk(surface, lobe, it.center, it.half_x, it.half_y, it.kind > 0.5);
+        value = ltc_disk(surface, lobes, it.center, it.half_x, it.half_y, it.kind > 0.5);
     }
     values[index] = vec4<f32>(value, 0.0);
 }

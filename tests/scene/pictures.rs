@@ -98,7 +98,7 @@ fn bands_do_not_show() {
 
 /// Everything that leaves the picture of `scene` as it is.
 fn everything(scene: &Scene) -> Effects {
-    let all = Effects::all().without(Effect::CheapHorizon);
+    let all = Effects::standing();
     if scene.energy_compensation { all } else { all.without(Effect::EnergyCompensation) }
 }
 

@@ -36,27 +36,27 @@ void main() {
     vec2 at = ltc_table_coordinates(surface, table_size);
     vec4 shape = textureLod(sampler2DArray(table, table_sampler), vec3(at, 0.0), 0.0);
     vec4 amplitude = textureLod(sampler2DArray(table, table_sampler), vec3(at, 1.0), 0.0);
-    LtcLobe lobe = ltc_lobe(surface, shape, amplitude);
+    LtcLobes lobes = ltc_lobes_of(ltc_lobe(surface, shape, amplitude));
 #else
-    LtcLobe lobe = ltc_lobe_from_table(surface, table, float(textureSize(table, 0).x));
+    LtcLobes lobes = ltc_lobes_from_table(surface, table, float(textureSize(table, 0).x), 0);
 #endif
     uint first = light.first;
     vec4 a = vertices[first];
     vec3 value;
     if (light.kind == 1u) {
-        value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+        value = ltc_disk(surface, lobes, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
     } else if (light.kind == 2u) {
-        value = ltc_sphere(surface, lobe, a.xyz, a.w);
+        value = ltc_sphere(surface, lobes, a.xyz, a.w);
     } else if (light.kind == 3u) {
-        value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & 4u) != 0u);
+        value = ltc_tube(surface, lobes, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & 4u) != 0u);
     } else if ((light.flags & 2u) != 0u) {
-        value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
+        value = ltc_quad(surface, lobes, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
     } else {
         LtcPolygon polygon = ltc_polygon_begin(surface, vertices[first].xyz);
         for (uint i = 1u; i < light.count; i++) {
-            ltc_polygon_add(polygon, surface, lobe, vertices[first + i].xyz);
+            ltc_polygon_add(polygon, surface, lobes, vertices[first + i].xyz);
         }
-        value = ltc_polygon_end(polygon, surface, lobe, two_sided);
+        value = ltc_polygon_end(polygon, surface, lobes, two_sided);
     }
     values[index] = vec4(value, 0.0);
 }

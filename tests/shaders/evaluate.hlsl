@@ -32,24 +32,24 @@ void main(uint3 invocation : SV_DispatchThreadID) {
     float width, height, layers;
     table.GetDimensions(width, height, layers);
     LtcSurface surface = ltc_surface(at.position, at.normal, at.view, at.roughness);
-    LtcLobe lobe = ltc_lobe_from_table(surface, table, table_sampler, width);
+    LtcLobes lobes = ltc_lobes_from_table(surface, table, table_sampler, width, 0);
     uint first = light.first;
     float4 a = vertices[first];
     float3 value;
     if (light.kind == 1u) {
-        value = ltc_disk(surface, lobe, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
+        value = ltc_disk(surface, lobes, a.xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, two_sided);
     } else if (light.kind == 2u) {
-        value = ltc_sphere(surface, lobe, a.xyz, a.w);
+        value = ltc_sphere(surface, lobes, a.xyz, a.w);
     } else if (light.kind == 3u) {
-        value = ltc_tube(surface, lobe, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & 4u) != 0u);
+        value = ltc_tube(surface, lobes, a.xyz, vertices[first + 1u].xyz, a.w, (light.flags & 4u) != 0u);
     } else if ((light.flags & 2u) != 0u) {
-        value = ltc_quad(surface, lobe, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
+        value = ltc_quad(surface, lobes, vertices[first].xyz, vertices[first + 1u].xyz, vertices[first + 2u].xyz, vertices[first + 3u].xyz, two_sided);
     } else {
         LtcPolygon polygon = ltc_polygon_begin(surface, vertices[first].xyz);
         for (uint i = 1u; i < light.count; i++) {
-            ltc_polygon_add(polygon, surface, lobe, vertices[first + i].xyz);
+            ltc_polygon_add(polygon, surface, lobes, vertices[first + i].xyz);
         }
-        value = ltc_polygon_end(polygon, surface, lobe, two_sided);
+        value = ltc_polygon_end(polygon, surface, lobes, two_sided);
     }
     values[index] = float4(value, 0.0);
 }

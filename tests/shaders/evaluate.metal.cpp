@@ -39,22 +39,22 @@ int main(int, char **arguments) {
         const LtcSurface surface = ltc_surface(metal::float3{at.position[0], at.position[1], at.position[2]},
             metal::float3{at.normal[0], at.normal[1], at.normal[2]},
             metal::float3{at.view[0], at.view[1], at.view[2]}, at.roughness);
-        const LtcLobe lobe = ltc_lobe_from_table(surface, table, metal::sampler{}, float(size));
+        const LtcLobes lobes = ltc_lobes_from_table(surface, table, metal::sampler{}, float(size), 0);
         const auto vertex = [&](uint32_t i) { return vertices[light.first + i].xyz; };
         const float radius = vertices[light.first].w;
         metal::float3 value;
         if (light.kind == 1) {
-            value = ltc_disk(surface, lobe, vertex(0), vertex(1), vertex(2), two_sided);
+            value = ltc_disk(surface, lobes, vertex(0), vertex(1), vertex(2), two_sided);
         } else if (light.kind == 2) {
-            value = ltc_sphere(surface, lobe, vertex(0), radius);
+            value = ltc_sphere(surface, lobes, vertex(0), radius);
         } else if (light.kind == 3) {
-            value = ltc_tube(surface, lobe, vertex(0), vertex(1), radius, light.flags & 4);
+            value = ltc_tube(surface, lobes, vertex(0), vertex(1), radius, light.flags & 4);
         } else if (light.flags & 2) {
-            value = ltc_quad(surface, lobe, vertex(0), vertex(1), vertex(2), vertex(3), two_sided);
+            value = ltc_quad(surface, lobes, vertex(0), vertex(1), vertex(2), vertex(3), two_sided);
         } else {
             LtcPolygon polygon = ltc_polygon_begin(surface, vertex(0));
-            for (uint32_t i = 1; i < light.count; i++) ltc_polygon_add(polygon, surface, lobe, vertex(i));
-            value = ltc_polygon_end(polygon, surface, lobe, two_sided);
+            for (uint32_t i = 1; i < light.count; i++) ltc_polygon_add(polygon, surface, lobes, vertex(i));
+            value = ltc_polygon_end(polygon, surface, lobes, two_sided);
         }
         const float result[4] = {value.x, value.y, value.z, 0};
         std::fwrite(result, sizeof result, 1, output);

@@ -46,6 +46,7 @@ fn whole(@builtin(global_invocation_id) invocation: vec3<u32>) {
     material.grain = at.grain;
     material.anisotropy = at.anisotropy;
     var layers: LtcLayers;
+    layers.lobes = 6;
     layers.sheen = 2;
     layers.diffuse = 3;
     layers.anisotropic = 4;

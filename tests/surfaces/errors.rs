@@ -163,31 +163,34 @@ fn a_device_agrees_with_the_twin() {
         (
             Layer::Sheen,
             "ltc_sheen_lobe_from_table(surface, table, table_sampler, table_size, 2)",
-            "ltc_sheen_over(vec3<f32>(0.5), lobe, value, vec3<f32>(0.2, 0.6, 1.0))",
+            "ltc_sheen_over(vec3<f32>(0.5), lobes.first, value, vec3<f32>(0.2, 0.6, 1.0))",
             |_, lobe, value, colour| ltc_sheen_over(Vec3::splat(0.5), lobe, value, colour),
         ),
         (
             Layer::Diffuse,
             "ltc_diffuse_lobe_from_table(surface, table, table_sampler, table_size, 3)",
-            "ltc_rough_diffuse(surface, lobe, value, vec3<f32>(0.2, 0.6, 1.0))",
+            "ltc_rough_diffuse(surface, lobes.first, value, vec3<f32>(0.2, 0.6, 1.0))",
             ltc_rough_diffuse,
         ),
         (
             Layer::Shape,
             "ltc_lobe_from_table(surface, table, table_sampler, table_size)",
-            "ltc_coat_over(vec3<f32>(0.5), lobe, value, 0.04, 0.7)",
+            "ltc_coat_over(vec3<f32>(0.5), lobes.first, value, 0.04, 0.7)",
             |_, lobe, value, _| ltc_coat_over(Vec3::splat(0.5), lobe, value, 0.04, 0.7),
         ),
         (
             Layer::Shape,
             "ltc_lobe_from_table(ltc_surface_with_roughness(surface, 0.9), table, table_sampler, table_size)",
-            "ltc_energy_compensation(lobe, vec3<f32>(0.2, 0.6, 1.0))",
+            "ltc_energy_compensation(lobes.first, vec3<f32>(0.2, 0.6, 1.0))",
             |_, lobe, _, colour| ltc_energy_compensation(lobe, colour),
         ),
     ];
     for (layer, make, combine, twin) in cases {
         let kernel = softbox::WGSL_EVALUATE
-            .replace("ltc_lobe_from_table(surface, table, table_sampler, table_size)", make)
+            .replace(
+                "ltc_lobes_from_table(surface, table, table_sampler, table_size, 0)",
+                &format!("ltc_lobes_of({make})"),
+            )
             .replace("vec4<f32>(value, 0.0)", &format!("vec4<f32>({combine}, 0.0)"));
         assert!(kernel.contains(make) && kernel.contains(combine), "the kernel has changed its words");
         let program = Program::wgsl(format!("{}{kernel}", softbox::WGSL_INCLUDE));

@@ -1,0 +1,91 @@
+//! Quality levels: how much accuracy a renderer buys, as effects.
+
+use super::{Effect, Effects, EffectsError};
+
+/// How much accuracy a renderer buys. Levels differ by effects and nothing else, so a set of effects can also be put
+/// together by hand.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Quality {
+    /// One lobe, exact horizons.
+    #[default]
+    Standard,
+    /// The sum of two lobes, exact horizons.
+    Fine,
+    /// The sum of three lobes, exact horizons.
+    Finest,
+}
+
+impl Quality {
+    /// Every level, the cheapest first.
+    pub const ALL: [Self; 3] = [Self::Standard, Self::Fine, Self::Finest];
+
+    /// The effects by which the level differs from [`Quality::Standard`].
+    const fn changes(self) -> &'static [Effect] {
+        match self {
+            Self::Standard => &[],
+            Self::Fine => &[Effect::SecondLobe],
+            Self::Finest => &[Effect::SecondLobe, Effect::ThirdLobe],
+        }
+    }
+
+    /// Its name in texts.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Fine => "fine",
+            Self::Finest => "finest",
+        }
+    }
+
+    /// What the level does, in one sentence.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Standard => "One lobe from a table of two layers, cut exactly at both horizons.",
+            Self::Fine => {
+                "The sum of two lobes, each with a weight for either part, from a table of three layers."
+            }
+            Self::Finest => {
+                "The sum of three lobes, each with a weight for either part, from a table of five layers."
+            }
+        }
+    }
+
+    /// A set of effects at this level: with the level's own effects, as far as the set has what they need, and without
+    /// those of other levels.
+    ///
+    /// ```
+    /// use softbox::effects::{Effects, Quality};
+    ///
+    /// let scene: Effects = "quad+ggx".parse()?;
+    /// assert_eq!(Quality::Fine.of(scene).to_string(), "quad+ggx+second-lobe");
+    /// assert_eq!(Quality::Standard.of(Quality::Finest.of(scene)), scene);
+    /// // Diffuse surfaces have no lobe.
+    /// assert_eq!(Quality::Finest.of("quad".parse()?).to_string(), "quad");
+    /// # Ok::<(), softbox::effects::EffectsError>(())
+    /// ```
+    pub fn of(self, effects: Effects) -> Effects {
+        let others = Self::ALL.iter().flat_map(|level| level.changes());
+        let plain = others.fold(effects, |set, effect| set.without(*effect));
+        if plain.is_empty() {
+            return plain;
+        }
+        Effects::sustained(self.changes().iter().fold(plain.0, |bits, effect| bits | effect.bit()))
+    }
+}
+
+impl core::fmt::Display for Quality {
+    fn fmt(&self, formatter: &mut core::fmt::Formatter) -> core::fmt::Result {
+        formatter.pad(self.name())
+    }
+}
+
+impl core::str::FromStr for Quality {
+    type Err = EffectsError;
+
+    fn from_str(text: &str) -> Result<Self, EffectsError> {
+        Self::ALL
+            .into_iter()
+            .find(|level| level.name() == text)
+            .ok_or_else(|| EffectsError::Quality { text: text.to_owned() })
+    }
+}
