@@ -7,6 +7,7 @@
 mod angle;
 mod anisotropic;
 mod layout;
+mod point;
 mod single;
 mod texture;
 mod whole;
@@ -14,6 +15,7 @@ mod whole;
 pub use angle::{fit_angle_excess, fit_hyperbolic_excess};
 pub use anisotropic::{FittedAnisotropic, bake_anisotropic};
 pub use layout::Layout;
+pub use point::{PointFit, fit_point};
 pub use single::{Horizon, Loss};
 pub use texture::{Sight, fit_lookup, lookup_loss};
 
@@ -151,7 +153,7 @@ pub(crate) fn decode(layout: Layout, parameters: &[f64; 4], alpha: f64, cosine: 
     Lobe::from_entries(core::array::from_fn(|k| offset[k] + scale[k] * parameters[k]))
 }
 
-fn encode(layout: Layout, lobe: &Lobe, alpha: f64, cosine: f64) -> [f64; 4] {
+pub(crate) fn encode(layout: Layout, lobe: &Lobe, alpha: f64, cosine: f64) -> [f64; 4] {
     let (offset, scale) = layout.affine(alpha, cosine);
     let entries = lobe.entries();
     core::array::from_fn(|k| if scale[k] == 0.0 { 0.0 } else { (entries[k] - offset[k]) / scale[k] })

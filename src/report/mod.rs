@@ -4,6 +4,8 @@
 pub mod cost;
 #[cfg(feature = "report")]
 pub mod data;
+#[cfg(feature = "report")]
+pub mod errors;
 #[cfg(feature = "bake")]
 mod measure;
 #[cfg(feature = "report")]
