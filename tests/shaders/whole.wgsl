@@ -53,15 +53,15 @@ fn whole(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let shading = ltc_shading(at.position, at.normal, at.view, material, layers, table, table_sampler, 64.0);
     let flag = at.flag != 0u;
     var received: LtcReceived;
-    if (at.kind == 0u) {
+    if (ltc_use_quad & (at.kind == 0u)) {
         received = ltc_shading_quad(shading, at.a, at.b, at.c, at.d, flag);
-    } else if (at.kind == 1u) {
+    } else if (ltc_use_disk & (at.kind == 1u)) {
         received = ltc_shading_disk(shading, at.a, at.b, at.c, flag);
-    } else if (at.kind == 2u) {
+    } else if (ltc_use_sphere & (at.kind == 2u)) {
         received = ltc_shading_sphere(shading, at.a, at.radius);
-    } else if (at.kind == 3u) {
+    } else if (ltc_use_tube & (at.kind == 3u)) {
         received = ltc_shading_tube(shading, at.a, at.b, at.radius, flag);
-    } else {
+    } else if (ltc_use_polygon & (at.kind == 4u)) {
         var polygon = ltc_shading_polygon_begin(shading, at.a);
         ltc_shading_polygon_add(&polygon, shading, at.b);
         ltc_shading_polygon_add(&polygon, shading, at.c);
