@@ -80,7 +80,7 @@ fn fit_excess(degree: usize, excess: fn(f64) -> f64) -> (Vec<f64>, f64) {
 }
 
 /// Gaussian elimination with partial pivoting of rows that end in the right-hand side.
-fn eliminate(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
+pub(super) fn eliminate(mut rows: Vec<Vec<f64>>) -> Vec<f64> {
     let n = rows.len();
     for column in 0..n {
         let pivot = (column..n)

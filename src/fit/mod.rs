@@ -8,6 +8,7 @@ mod angle;
 mod anisotropic;
 mod layout;
 mod point;
+mod published;
 mod single;
 mod texture;
 mod whole;
@@ -16,6 +17,7 @@ pub use angle::{fit_angle_excess, fit_hyperbolic_excess};
 pub use anisotropic::{FittedAnisotropic, bake_anisotropic};
 pub use layout::Layout;
 pub use point::{PointFit, fit_point};
+pub use published::{bake_published, fit_published_angle, published_lobe};
 pub use single::{Horizon, Loss};
 pub use texture::{Sight, fit_lookup, lookup_loss};
 

@@ -226,6 +226,20 @@ fn manifest(folder: &Path) -> Option<PathBuf> {
 ///
 /// If there is no such driver, or it does not tell.
 pub fn compile(kernels: &[Vec<u8>]) -> Result<(Compiler, Vec<Cost>), CostError> {
+    compile_kernels(kernels, ENTRY_POINT, 5)
+}
+
+/// [`compile`] for kernels with another entry point, whose bindings are `buffers` storage buffers, a sampled image and a
+/// sampler.
+///
+/// # Errors
+///
+/// As [`compile`].
+pub fn compile_kernels(
+    kernels: &[Vec<u8>],
+    entry_point: &str,
+    buffers: usize,
+) -> Result<(Compiler, Vec<Cost>), CostError> {
     // SAFETY: the loader is the system's own.
     let entry = unsafe { ash::Entry::load() }.map_err(|error| CostError::NoLoader(error.to_string()))?;
     let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_2);
@@ -233,7 +247,7 @@ pub fn compile(kernels: &[Vec<u8>]) -> Result<(Compiler, Vec<Cost>), CostError> 
     // SAFETY: what the structures point to outlives the call; the handle is destroyed below.
     let instance = unsafe { entry.create_instance(&create, None) }.map_err(refused("start"))?;
     // SAFETY: everything made from the instance is destroyed by then.
-    let result = unsafe { compile_by(&instance, kernels) };
+    let result = unsafe { compile_by(&instance, kernels, entry_point, buffers) };
     // SAFETY: as before.
     unsafe { instance.destroy_instance(None) };
     result
@@ -245,6 +259,8 @@ pub fn compile(kernels: &[Vec<u8>]) -> Result<(Compiler, Vec<Cost>), CostError> 
 unsafe fn compile_by(
     instance: &ash::Instance,
     kernels: &[Vec<u8>],
+    entry_point: &str,
+    buffers: usize,
 ) -> Result<(Compiler, Vec<Cost>), CostError> {
     // SAFETY, for all calls of this function: handles come from the calls before and are destroyed once,
     // at the end; what structures point to outlives the calls.
@@ -277,7 +293,8 @@ unsafe fn compile_by(
             .push_next(&mut enabled);
         let logical = instance.create_device(physical, &create, None).map_err(refused("make a device"))?;
         let statistics = ash::khr::pipeline_executable_properties::Device::new(instance, &logical);
-        let costs = kernels.iter().map(|kernel| one(&logical, &statistics, kernel)).collect();
+        let costs =
+            kernels.iter().map(|kernel| one(&logical, &statistics, kernel, entry_point, buffers)).collect();
         logical.destroy_device(None);
         Ok((Compiler { device, driver }, Result::from_iter::<Vec<_>>(costs)?))
     }
@@ -290,6 +307,8 @@ unsafe fn one(
     device: &ash::Device,
     statistics: &ash::khr::pipeline_executable_properties::Device,
     kernel: &[u8],
+    entry_point: &str,
+    buffers: usize,
 ) -> Result<Cost, CostError> {
     let words: Vec<u32> =
         kernel.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
@@ -300,11 +319,10 @@ unsafe fn one(
             .descriptor_count(1)
             .stage_flags(vk::ShaderStageFlags::COMPUTE)
     };
-    let mut kinds = [vk::DescriptorType::STORAGE_BUFFER; 7];
-    kinds[5] = vk::DescriptorType::SAMPLED_IMAGE;
-    kinds[6] = vk::DescriptorType::SAMPLER;
+    let mut kinds = vec![vk::DescriptorType::STORAGE_BUFFER; buffers];
+    kinds.extend([vk::DescriptorType::SAMPLED_IMAGE, vk::DescriptorType::SAMPLER]);
     let bindings: Vec<_> = kinds.iter().enumerate().map(binding).collect();
-    let name = CString::new(ENTRY_POINT).unwrap_or_default();
+    let name = CString::new(entry_point).unwrap_or_default();
     // SAFETY: as in `compile_by`; after a failure what was made before goes with the device.
     unsafe {
         let create = vk::ShaderModuleCreateInfo::default().code(&words);

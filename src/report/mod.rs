@@ -1,5 +1,7 @@
 //! What a table is worth: its error against ground truth; and what a set of effects costs.
 
+#[cfg(feature = "report")]
+pub mod compare;
 #[cfg(feature = "cost")]
 pub mod cost;
 #[cfg(feature = "report")]
