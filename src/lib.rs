@@ -87,6 +87,8 @@ pub mod device;
 pub mod effects;
 #[cfg(feature = "bake")]
 pub mod fit;
+#[cfg(any(feature = "package", feature = "report"))]
+mod folder;
 #[cfg(feature = "shade")]
 mod ktx;
 #[cfg(feature = "shade")]

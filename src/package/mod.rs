@@ -1,18 +1,17 @@
 //! The drop-in package: the include in every language, the tables in every format, a guide.
 
 mod guide;
-mod write;
 
-pub use write::{WriteError, write_folder};
+use std::path::Path;
 
 use crate::effects::{self, Effects, EffectsError};
 use crate::fit::{self, Family, Layout, Settings};
+use crate::folder;
 use crate::report::{self, Accuracy, REGIONS, Technique};
 use crate::table::{Container, ContainerError, Layer, Table};
 use crate::translate::{self, Target, TranslateError};
 
-/// The file of a package that names all its files, itself included, a line each.
-pub const MANIFEST: &str = "MANIFEST";
+pub use crate::folder::{MANIFEST, WriteError};
 
 /// What to put into a package.
 #[derive(Clone, Debug, PartialEq)]
@@ -191,6 +190,19 @@ pub fn build(
         }
     }
     Ok(package)
+}
+
+/// Writes a package into `folder`, in the place of an older package there.
+///
+/// The files are written into a new folder beside it, which then takes its name. Until that moment an
+/// older package is left as it is, and nothing is ever removed that its [`MANIFEST`] does not name.
+///
+/// # Errors
+///
+/// If the folder holds anything but a package, or the operating system refuses.
+pub fn write_folder(package: &Package, folder: &Path) -> Result<(), WriteError> {
+    let kind = folder::Kind { name: "package", mark: "wgsl/ltc.wgsl" };
+    folder::write(&package.files, folder, kind)
 }
 
 /// A table with the further layers that `effects` need. Those of the embedded size are embedded, too.

@@ -52,6 +52,21 @@ pub enum Part {
     Dielectric,
 }
 
+impl Part {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Diffuse, Self::Specular, Self::Fresnel, Self::Dielectric];
+
+    /// What charts call it.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Diffuse => "diffuse",
+            Self::Specular => "specular (F = 1)",
+            Self::Fresnel => "Schlick's part",
+            Self::Dielectric => "dielectric (F0 = 0.04)",
+        }
+    }
+}
+
 /// The error of a method over some inputs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ErrorRow {

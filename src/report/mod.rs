@@ -12,6 +12,8 @@ pub mod errors;
 mod measure;
 #[cfg(feature = "report")]
 mod method;
+#[cfg(feature = "report")]
+pub mod page;
 #[cfg(feature = "bake")]
 mod texture;
 
