@@ -254,7 +254,7 @@ const USE: &str = "
     LtcSurface surface = ltc_surface(at, at, at, 0.5);
     LtcLobes lobes = NO_LOBE;
 #if LTC_GGX
-    lobes = ltc_lobes_of(ltc_lobe(surface, AT_FOUR, AT_FOUR));
+    lobes = ltc_lobes_of(surface, ltc_lobe(surface, AT_FOUR, AT_FOUR));
 #endif
 #if LTC_QUAD
     value += ltc_quad(surface, lobes, at, at, at, at, true);

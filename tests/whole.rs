@@ -165,7 +165,7 @@ fn is_what_the_functions_of_one_light_say(effects: Effects) {
             wide::<f32>(case.view),
             case.roughness,
         );
-        let lobe = table.lobes(&surface, effects);
+        let lobe = table.specular(&surface, effects);
         let [a, b, c, d] = [case.a, case.b, case.c, case.d].map(Vec3::from);
         let flag = case.flag != 0;
         let single = match case.kind {

@@ -20,7 +20,7 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(ltc_lobe(...)) from the two
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(surface, ltc_lobe(...)) from the two
 //      texels, or ltc_two_lobes from three, ltc_three_lobes from five.
 //   2. ltc_lobes_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
 //      ltc_polygon functions: a specular over a diffuse part.
@@ -94,6 +94,9 @@ const LTC_OVER_TWO_PI: f32 = 0.159154943091895;
 
 /// Roughness below which the lobe no longer changes: alpha = 0.0004.
 const LTC_ROUGHNESS_FLOOR: f32 = 0.02;
+
+/// How far the mean direction of a light turns towards a lobe's axis in ltc_mean_schlick.
+const LTC_MEAN_SHIFT: f32 = 0.5;
 
 /// Smallest length by which anything is divided; a reciprocal of it is still finite.
 const LTC_TINY: f32 = 1e-37;
@@ -265,7 +268,7 @@ struct LtcShape {
     entries: vec4<f32>,
     /// The lobe's part of the BRDF's integral of f cos, for F = 1.
     albedo: f32,
-    /// Its part of the integral of f cos (1 - v.h)^5.
+    /// For a single lobe the integral of f cos (1 - v.h)^5, for one of a sum its excess, see ltc_lobes_part.
     fresnel: f32,
 }
 
@@ -285,15 +288,18 @@ struct LtcLobes {
 }
 
 /// A sum of one lobe, whatever the switches say.
-fn ltc_lobes_of(lobe: LtcLobe) -> LtcLobes {
+fn ltc_lobes_of(surface: LtcSurface, lobe: LtcLobe) -> LtcLobes {
     var lobes: LtcLobes;
     lobes.first = lobe;
     lobes.count = 1;
+    if (ltc_use_second_lobe) {
+        lobes.first.fresnel = lobe.fresnel - lobe.albedo * ltc_mean_schlick(surface, lobe, ltc_all_around(surface, lobe));
+    }
     return lobes;
 }
 
-/// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (weight of the
-/// first, weight of the second) for F = 1, then the same for Schlick's part.
+/// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (albedo of the
+/// first, of the second, excess of the first, of the second); see ltc_lobes_part.
 fn ltc_two_lobes(surface: LtcSurface, first: vec4<f32>, second: vec4<f32>, weights: vec4<f32>) -> LtcLobes {
     var lobes: LtcLobes;
     lobes.first = ltc_lobe(surface, first, weights.xzxz);
@@ -302,13 +308,13 @@ fn ltc_two_lobes(surface: LtcSurface, first: vec4<f32>, second: vec4<f32>, weigh
     return lobes;
 }
 
-/// The sum of three lobes that five texels of the table describe: their shapes, their weights for F = 1, and those for
-/// Schlick's part.
-fn ltc_three_lobes(surface: LtcSurface, first: vec4<f32>, second: vec4<f32>, third: vec4<f32>, weights: vec4<f32>, schlick: vec4<f32>) -> LtcLobes {
+/// The sum of three lobes that five texels of the table describe: their shapes, their albedos, and their excesses;
+/// see ltc_lobes_part.
+fn ltc_three_lobes(surface: LtcSurface, first: vec4<f32>, second: vec4<f32>, third: vec4<f32>, albedos: vec4<f32>, excesses: vec4<f32>) -> LtcLobes {
     var lobes: LtcLobes;
-    lobes.first = ltc_lobe(surface, first, vec4<f32>(weights.x, schlick.x, 0.0, 0.0));
-    lobes.second = ltc_shape(surface, second, weights.y, schlick.y);
-    lobes.third = ltc_shape(surface, third, weights.z, schlick.z);
+    lobes.first = ltc_lobe(surface, first, vec4<f32>(albedos.x, excesses.x, 0.0, 0.0));
+    lobes.second = ltc_shape(surface, second, albedos.y, excesses.y);
+    lobes.third = ltc_shape(surface, third, albedos.z, excesses.z);
     lobes.count = 3;
     return lobes;
 }
@@ -319,7 +325,7 @@ fn ltc_three_lobes(surface: LtcSurface, first: vec4<f32>, second: vec4<f32>, thi
 fn ltc_lobes_from_table(surface: LtcSurface, table: texture_2d_array<f32>, table_sampler: sampler, table_size: f32, layer: i32) -> LtcLobes {
     var lobes: LtcLobes;
     if (!ltc_use_second_lobe) {
-        lobes = ltc_lobes_of(ltc_lobe_from_table(surface, table, table_sampler, table_size));
+        lobes = ltc_lobes_of(surface, ltc_lobe_from_table(surface, table, table_sampler, table_size));
     }
     if (ltc_use_second_lobe) {
         let at = ltc_table_coordinates(surface, table_size);
@@ -330,9 +336,9 @@ fn ltc_lobes_from_table(surface: LtcSurface, table: texture_2d_array<f32>, table
             lobes = ltc_two_lobes(surface, first, second, next);
         }
         if (ltc_use_third_lobe) {
-            let weights = textureSampleLevel(table, table_sampler, at, layer + 3, 0.0);
-            let schlick = textureSampleLevel(table, table_sampler, at, layer + 4, 0.0);
-            lobes = ltc_three_lobes(surface, first, second, next, weights, schlick);
+            let albedos = textureSampleLevel(table, table_sampler, at, layer + 3, 0.0);
+            let excesses = textureSampleLevel(table, table_sampler, at, layer + 4, 0.0);
+            lobes = ltc_three_lobes(surface, first, second, next, albedos, excesses);
         }
     }
     return lobes;
@@ -344,15 +350,20 @@ fn ltc_shape_lobe(surface: LtcSurface, shape: LtcShape) -> LtcLobe {
 }
 
 /// The first lobe with the albedo and the Schlick part of all: for functions that ask how much a surface reflects, not where.
-fn ltc_lobes_together(lobes: LtcLobes) -> LtcLobe {
+fn ltc_lobes_together(surface: LtcSurface, lobes: LtcLobes) -> LtcLobe {
     var together = lobes.first;
-    if (ltc_use_second_lobe & (lobes.count > 1)) {
-        together.albedo += lobes.second.albedo;
-        together.fresnel += lobes.second.fresnel;
-    }
-    if (ltc_use_third_lobe & (lobes.count > 2)) {
-        together.albedo += lobes.third.albedo;
-        together.fresnel += lobes.third.fresnel;
+    if (ltc_use_second_lobe) {
+        var sum = ltc_lobes_part(surface, lobes.first, ltc_all_around(surface, lobes.first));
+        if (lobes.count > 1) {
+            let second = ltc_shape_lobe(surface, lobes.second);
+            sum += ltc_lobes_part(surface, second, ltc_all_around(surface, second));
+        }
+        if (ltc_use_third_lobe & (lobes.count > 2)) {
+            let third = ltc_shape_lobe(surface, lobes.third);
+            sum += ltc_lobes_part(surface, third, ltc_all_around(surface, third));
+        }
+        together.albedo = sum.x;
+        together.fresnel = sum.y;
     }
     return together;
 }
@@ -376,6 +387,16 @@ fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_refl
     return normal_reflectance * (value.y - value.z) + grazing_reflectance * value.z;
 }
 
+/// Schlick's factor (1 - v.h)^5 for light from a direction `toward` in the lobe's space, of any length.
+fn ltc_schlick(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> f32 {
+    let direction = ltc_direction(lobe.normal_x * toward.x + lobe.normal_y * toward.y + lobe.normal_z * toward.z);
+    // cos^2 of half the angle between view and light: the half vector's cosine, squared.
+    let along = surface.sin_view * dot(surface.tangent, direction) + surface.cos_view * dot(surface.normal, direction);
+    let half_cosine = clamp(0.5 + 0.5 * along, 0.0, 1.0);
+    let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
+    return f * f * f * f * f;
+}
+
 /// The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
 /// its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
 ///
@@ -384,12 +405,7 @@ fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_refl
 /// for a light that covers the whole lobe it is the table's average. The square of the coverage
 /// leads from one to the other.
 fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<f32>) -> vec2<f32> {
-    let direction = ltc_direction(lobe.normal_x * toward.x + lobe.normal_y * toward.y + lobe.normal_z * toward.z);
-    // cos^2 of half the angle between view and light: the half vector's cosine, squared.
-    let along = surface.sin_view * dot(surface.tangent, direction) + surface.cos_view * dot(surface.normal, direction);
-    let half_cosine = clamp(0.5 + 0.5 * along, 0.0, 1.0);
-    let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
-    let schlick = f * f * f * f * f;
+    let schlick = ltc_schlick(surface, lobe, toward);
     let whole = coverage * coverage;
     return coverage * vec2<f32>(lobe.albedo, lobe.albedo * schlick * (1.0 - whole) + lobe.fresnel * whole);
 }
@@ -397,6 +413,42 @@ fn ltc_specular(surface: LtcSurface, lobe: LtcLobe, coverage: f32, toward: vec3<
 /// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
 fn ltc_lobe_value(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> vec2<f32> {
     return ltc_specular(surface, lobe, clamp(toward.z / lobe.share, 0.0, 1.0), toward);
+}
+
+/// Schlick's factor at the mean direction of a light, from its vector form factor `toward` in a lobe's space.
+///
+/// The vector form factor t averages directions without the lobe's cosine. For a cap around a direction d, so small
+/// that |t| is the square of its angle, the mean with the cosine is d cos + |t|/4 z, up to a factor: z turns in by
+/// |t|^2/(4 cos) beside t. The cosine is left out, and LTC_MEAN_SHIFT is not the derived factor but the round number that
+/// did best of a few on random quads.
+fn ltc_mean_schlick(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> f32 {
+    return ltc_schlick(surface, lobe, vec3<f32>(toward.xy, toward.z + LTC_MEAN_SHIFT * dot(toward, toward)));
+}
+
+/// The vector form factor, in a lobe's space, of a light all around the surface: half the sum of the normals of the two
+/// horizons.
+fn ltc_all_around(surface: LtcSurface, lobe: LtcLobe) -> vec3<f32> {
+    let horizon = ltc_transform_normal(lobe, surface.normal);
+    let unit = horizon * inverseSqrt(max(dot(horizon, horizon), LTC_TINY));
+    return vec3<f32>(0.5 * unit.xy, 0.5 + 0.5 * unit.z);
+}
+
+/// The parts (specular, fresnel) of one lobe of a sum from the vector form factor in its space.
+///
+/// A single lobe is as in ltc_specular. In a sum Schlick's factor is that of the mean direction of the light. What a light
+/// all around gets beyond that, the lobe's `fresnel` holds as an excess of either sign; it comes in with the variance of
+/// the factor over the light, for which the square of the coverage stands.
+fn ltc_lobes_part(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> vec2<f32> {
+    var value = vec2<f32>(0.0);
+    if (!ltc_use_second_lobe) {
+        value = ltc_lobe_value(surface, lobe, toward);
+    }
+    if (ltc_use_second_lobe) {
+        let coverage = clamp(toward.z / lobe.share, 0.0, 1.0);
+        let schlick = lobe.albedo * ltc_mean_schlick(surface, lobe, toward) + lobe.fresnel * (coverage * coverage);
+        value = coverage * vec2<f32>(lobe.albedo, clamp(schlick, 0.0, lobe.albedo));
+    }
+    return value;
 }
 
 /// The form factor of the light that arrives, from a signed one; `front` tells whether the light shows its
@@ -907,14 +959,14 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
 fn ltc_quad_specular(surface: LtcSurface, quad: LtcQuad, lobes: LtcLobes) -> vec2<f32> {
     var value = vec2<f32>(0.0);
     if (!ltc_use_second_lobe) {
-        value = ltc_lobe_value(surface, lobes.first, ltc_quad_lobe(quad, lobes.first));
+        value = ltc_lobes_part(surface, lobes.first, ltc_quad_lobe(quad, lobes.first));
     }
     if (ltc_use_second_lobe) {
         var lobe = lobes.first;
         var shape = lobes.second;
         var index = 1;
         loop {
-            value += ltc_lobe_value(surface, lobe, ltc_quad_lobe(quad, lobe));
+            value += ltc_lobes_part(surface, lobe, ltc_quad_lobe(quad, lobe));
             if (index >= lobes.count) {
                 break;
             }
@@ -1270,12 +1322,12 @@ fn ltc_outline_lobes_add(sums: ptr<function, LtcOutlineLobes>, surface: LtcSurfa
 
 /// The parts (specular, fresnel) that a sum of lobes reflects of a closed outline of unit radiance.
 fn ltc_outline_specular(surface: LtcSurface, outline: LtcOutline, sums: LtcOutlineLobes, lobes: LtcLobes, two_sided: bool) -> vec2<f32> {
-    var value = ltc_lobe_value(surface, lobes.first, ltc_outline_lobe(outline, sums.first, two_sided));
+    var value = ltc_lobes_part(surface, lobes.first, ltc_outline_lobe(outline, sums.first, two_sided));
     if (ltc_use_second_lobe & (lobes.count > 1)) {
-        value += ltc_lobe_value(surface, ltc_shape_lobe(surface, lobes.second), ltc_outline_lobe(outline, sums.second, two_sided));
+        value += ltc_lobes_part(surface, ltc_shape_lobe(surface, lobes.second), ltc_outline_lobe(outline, sums.second, two_sided));
     }
     if (ltc_use_third_lobe & (lobes.count > 2)) {
-        value += ltc_lobe_value(surface, ltc_shape_lobe(surface, lobes.third), ltc_outline_lobe(outline, sums.third, two_sided));
+        value += ltc_lobes_part(surface, ltc_shape_lobe(surface, lobes.third), ltc_outline_lobe(outline, sums.third, two_sided));
     }
     return value;
 }
@@ -1605,14 +1657,14 @@ fn ltc_tube_lobe(tube: LtcTube, lobe: LtcLobe) -> vec3<f32> {
 fn ltc_tube_specular(surface: LtcSurface, tube: LtcTube, lobes: LtcLobes) -> vec2<f32> {
     var value = vec2<f32>(0.0);
     if (!ltc_use_second_lobe) {
-        value = ltc_lobe_value(surface, lobes.first, ltc_tube_lobe(tube, lobes.first));
+        value = ltc_lobes_part(surface, lobes.first, ltc_tube_lobe(tube, lobes.first));
     }
     if (ltc_use_second_lobe) {
         var lobe = lobes.first;
         var shape = lobes.second;
         var index = 1;
         loop {
-            value += ltc_lobe_value(surface, lobe, ltc_tube_lobe(tube, lobe));
+            value += ltc_lobes_part(surface, lobe, ltc_tube_lobe(tube, lobe));
             if (index >= lobes.count) {
                 break;
             }
@@ -1845,7 +1897,7 @@ fn ltc_lobe_picture(surface: LtcSurface, quad: LtcQuad, lobe: LtcLobe, a: vec3<f
     let place = ltc_rectangle_lookup(surface, lobe, a, b, d, toward, texels, false);
     var seen: LtcSeen;
     seen.colour = ltc_texture_fetch(picture, picture_sampler, place).xyz;
-    seen.value = ltc_lobe_value(surface, lobe, toward);
+    seen.value = ltc_lobes_part(surface, lobe, toward);
     return seen;
 }
 
@@ -2525,14 +2577,14 @@ fn ltc_disk_lobe(disk: LtcDisk, lobe: LtcLobe) -> vec3<f32> {
 fn ltc_disk_specular(surface: LtcSurface, disk: LtcDisk, lobes: LtcLobes) -> vec2<f32> {
     var value = vec2<f32>(0.0);
     if (!ltc_use_second_lobe) {
-        value = ltc_lobe_value(surface, lobes.first, ltc_disk_lobe(disk, lobes.first));
+        value = ltc_lobes_part(surface, lobes.first, ltc_disk_lobe(disk, lobes.first));
     }
     if (ltc_use_second_lobe) {
         var lobe = lobes.first;
         var shape = lobes.second;
         var index = 1;
         loop {
-            value += ltc_lobe_value(surface, lobe, ltc_disk_lobe(disk, lobe));
+            value += ltc_lobes_part(surface, lobe, ltc_disk_lobe(disk, lobe));
             if (index >= lobes.count) {
                 break;
             }
@@ -2624,14 +2676,14 @@ fn ltc_sphere_lobe(sphere: LtcSphere, lobe: LtcLobe) -> vec3<f32> {
 fn ltc_sphere_specular(surface: LtcSurface, sphere: LtcSphere, lobes: LtcLobes) -> vec2<f32> {
     var value = vec2<f32>(0.0);
     if (!ltc_use_second_lobe) {
-        value = ltc_lobe_value(surface, lobes.first, ltc_sphere_lobe(sphere, lobes.first));
+        value = ltc_lobes_part(surface, lobes.first, ltc_sphere_lobe(sphere, lobes.first));
     }
     if (ltc_use_second_lobe) {
         var lobe = lobes.first;
         var shape = lobes.second;
         var index = 1;
         loop {
-            value += ltc_lobe_value(surface, lobe, ltc_sphere_lobe(sphere, lobe));
+            value += ltc_lobes_part(surface, lobe, ltc_sphere_lobe(sphere, lobe));
             if (index >= lobes.count) {
                 break;
             }
@@ -3064,7 +3116,7 @@ fn ltc_shading(position: vec3<f32>, normal: vec3<f32>, view: vec3<f32>, material
     if (ltc_use_anisotropic & (material.anisotropy > 0.0)) {
         let alpha = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         let anisotropy = ltc_anisotropy(surface, material.grain, alpha.x, alpha.y);
-        shading.specular = ltc_lobes_of(ltc_anisotropic_lobe_from_table(surface, anisotropy, table, table_sampler, table_size, layers.anisotropic));
+        shading.specular = ltc_lobes_of(surface, ltc_anisotropic_lobe_from_table(surface, anisotropy, table, table_sampler, table_size, layers.anisotropic));
     } else if (ltc_use_ggx) {
         shading.specular = ltc_lobes_from_table(surface, table, table_sampler, table_size, layers.lobes);
     }
@@ -3242,7 +3294,7 @@ fn ltc_reflected(shading: LtcShading, material: LtcMaterial, received: LtcReceiv
         let value = vec3<f32>(received.diffuse, received.specular);
         var specular = ltc_reflectance(value, material.normal_reflectance, material.grazing_reflectance);
         if (ltc_use_energy_compensation) {
-            specular *= ltc_energy_compensation(ltc_lobes_together(shading.specular), material.normal_reflectance);
+            specular *= ltc_energy_compensation(ltc_lobes_together(shading.surface, shading.specular), material.normal_reflectance);
         }
         radiance += specular;
     }
@@ -3250,7 +3302,7 @@ fn ltc_reflected(shading: LtcShading, material: LtcMaterial, received: LtcReceiv
         radiance = ltc_sheen_over(radiance, shading.sheen, vec3<f32>(received.diffuse, received.sheen, 0.0), material.sheen_colour);
     }
     if (ltc_use_clearcoat) {
-        radiance = ltc_coat_over(radiance, ltc_lobes_together(shading.coat), vec3<f32>(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = ltc_coat_over(radiance, ltc_lobes_together(shading.surface, shading.coat), vec3<f32>(received.diffuse, received.coat), material.coat_reflectance, material.coat);
     }
     return radiance;
 }

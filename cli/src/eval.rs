@@ -18,8 +18,8 @@ use softbox::effects::{self, Effect, Effects, Quality};
 use softbox::light::{Light, LightError, light_value};
 use softbox::scene::load_picture;
 use softbox::shade::{
-    LTC_ROUGHNESS_FLOOR, LtcLookup, Real, Vector, ltc_lobe_value, ltc_quad_begin, ltc_quad_lobe,
-    ltc_quad_toward, ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_surface,
+    LTC_ROUGHNESS_FLOOR, LobeSum, LtcLookup, Real, Vector, ltc_quad_begin, ltc_quad_lobe, ltc_quad_toward,
+    ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_surface,
 };
 use softbox::table::Table;
 use softbox::texture::Prefiltered;
@@ -288,7 +288,7 @@ fn parse(line: &[u8], on: On, pictures: &mut Pictures) -> anyhow::Result<Case> {
 fn by_twin<R: Real>(table: &Table, effects: Effects, case: &Case) -> Values {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), R::new(case.roughness));
-    let lobes = table.lobes(&surface, effects);
+    let lobes = table.specular(&surface, effects);
     let value = light_value(&surface, &lobes, &case.light);
     let [diffuse, specular, fresnel] = [value.x(), value.y(), value.z()].map(Real::to_f64);
     let (Some(picture), Light::Polygon { points, two_sided }) = (&case.picture, &case.light) else {
@@ -305,9 +305,9 @@ fn by_twin<R: Real>(table: &Table, effects: Effects, case: &Case) -> Values {
     let toward = ltc_quad_toward(&surface, &quad);
     let matte = colour(ltc_rectangle_diffuse_lookup(&surface, [a, b, d], toward, texels, false));
     let (mut glossy, mut sum) = (DVec3::ZERO, 0.0);
-    for lobe in lobes.as_slice() {
+    for lobe in lobes.lobes() {
         let toward = ltc_quad_lobe(&quad, lobe);
-        let [part, _]: [R; 2] = ltc_lobe_value(&surface, lobe, toward).into();
+        let [part, _]: [R; 2] = lobes.part(&surface, lobe, toward).into();
         glossy +=
             part.to_f64() * colour(ltc_rectangle_lookup(&surface, lobe, [a, b, d], toward, texels, false));
         sum += part.to_f64();

@@ -30,7 +30,7 @@ pub enum Layer {
     FirstOfTwo,
     /// The shape of the second of two lobes.
     SecondOfTwo,
-    /// The weights of both for F = 1, then those for Schlick's part.
+    /// The albedos of both, then what Schlick's part of each exceeds that of its mean direction by.
     WeightsOfTwo,
     /// The shape of the first of three lobes.
     FirstOfThree,
@@ -38,10 +38,10 @@ pub enum Layer {
     SecondOfThree,
     /// The shape of the third lobe.
     ThirdOfThree,
-    /// The weights of all three for F = 1.
+    /// The albedos of all three, then the Schlick part of all together.
     WeightsOfThree,
-    /// Their weights for Schlick's part.
-    SchlickOfThree,
+    /// What Schlick's part of each of three lobes exceeds that of its mean direction by.
+    ExcessesOfThree,
 }
 
 impl Layer {
@@ -61,7 +61,7 @@ impl Layer {
         Self::SecondOfThree,
         Self::ThirdOfThree,
         Self::WeightsOfThree,
-        Self::SchlickOfThree,
+        Self::ExcessesOfThree,
     ];
 
     /// Bytes of the layer with `size` texels along each axis.
@@ -135,7 +135,7 @@ table! {
     Textured Light "textured" "ltc_use_textured" needs [Quad] roots ["ltc_quad_toward", "ltc_rectangle_diffuse_lookup", "ltc_texture_fetch", "ltc_texture_fetch_pair", "ltc_reflected_picture"] with_lobe ["ltc_rectangle_lookup", "ltc_quad_picture"] has_lobe false layers [] "Rectangles that show an image.";
 
     Lambert            Surface "lambert"             ""                            needs [] roots ["ltc_surface", "ltc_in_range", "ltc_material", "ltc_shading", "ltc_reflected"] with_lobe [] has_lobe false layers [] "Diffuse reflection by Lambert's law; part of every set.";
-    Ggx                Surface "ggx"                 "ltc_use_ggx"                 needs [] roots ["ltc_table_coordinates", "ltc_lobe", "ltc_lobe_from_table", "ltc_reflectance", "ltc_shape", "ltc_shape_lobe", "ltc_lobe_value", "ltc_lobes_of", "ltc_lobes_from_table", "ltc_lobes_together"] with_lobe [] has_lobe true layers [Layer::Shape, Layer::Amplitude] "Specular reflection of a rough surface.";
+    Ggx                Surface "ggx"                 "ltc_use_ggx"                 needs [] roots ["ltc_table_coordinates", "ltc_lobe", "ltc_lobe_from_table", "ltc_reflectance", "ltc_shape", "ltc_shape_lobe", "ltc_lobe_value", "ltc_lobes_of", "ltc_lobes_part", "ltc_lobes_from_table", "ltc_lobes_together"] with_lobe [] has_lobe true layers [Layer::Shape, Layer::Amplitude] "Specular reflection of a rough surface.";
     ClearCoat          Surface "clearcoat"           "ltc_use_clearcoat"           needs [Ggx] roots ["ltc_surface_with_roughness", "ltc_coat_over"] with_lobe [] has_lobe true layers [] "A second, clear layer on top.";
     Sheen              Surface "sheen"               "ltc_use_sheen"               needs [] roots ["ltc_surface_with_roughness", "ltc_sheen_lobe", "ltc_sheen_lobe_from_table", "ltc_sheen_over"] with_lobe [] has_lobe true layers [Layer::Sheen] "Reflection of fibres at grazing angles.";
     RoughDiffuse       Surface "rough-diffuse"       "ltc_use_rough_diffuse"       needs [] roots ["ltc_surface_with_roughness", "ltc_diffuse_lobe", "ltc_diffuse_lobe_from_table", "ltc_rough_diffuse"] with_lobe [] has_lobe true layers [Layer::Diffuse] "Diffuse reflection of a rough surface.";
@@ -146,5 +146,5 @@ table! {
     Caps         Option "caps"          "ltc_use_caps"          needs [Tube] roots [] with_lobe [] has_lobe false layers [] "Tubes with ends that emit.";
     CheapHorizon Option "cheap-horizon" "ltc_use_cheap_horizon" needs [Quad] roots [] with_lobe [] has_lobe false layers [] "Quads cut at the horizons by a cheap approximation.";
     SecondLobe   Option "second-lobe"   "ltc_use_second_lobe"   needs [Ggx] roots ["ltc_two_lobes"] with_lobe [] has_lobe false layers [Layer::FirstOfTwo, Layer::SecondOfTwo, Layer::WeightsOfTwo] "Isotropic specular reflection by the sum of two lobes.";
-    ThirdLobe    Option "third-lobe"    "ltc_use_third_lobe"    needs [SecondLobe] roots ["ltc_three_lobes"] with_lobe [] has_lobe false layers [Layer::FirstOfThree, Layer::SecondOfThree, Layer::ThirdOfThree, Layer::WeightsOfThree, Layer::SchlickOfThree] "Isotropic specular reflection by the sum of three lobes.";
+    ThirdLobe    Option "third-lobe"    "ltc_use_third_lobe"    needs [SecondLobe] roots ["ltc_three_lobes"] with_lobe [] has_lobe false layers [Layer::FirstOfThree, Layer::SecondOfThree, Layer::ThirdOfThree, Layer::WeightsOfThree, Layer::ExcessesOfThree] "Isotropic specular reflection by the sum of three lobes.";
 }

@@ -9,6 +9,7 @@ mod anisotropic;
 mod layout;
 mod point;
 mod published;
+mod several;
 mod single;
 mod texture;
 mod whole;
@@ -18,6 +19,7 @@ pub use anisotropic::{FittedAnisotropic, bake_anisotropic};
 pub use layout::Layout;
 pub use point::{PointFit, fit_point};
 pub use published::{bake_published, fit_published_angle, published_lobe};
+pub use several::{FittedLobes, LobesTexel, bake_lobes};
 pub use single::{Horizon, Loss};
 pub use texture::{Sight, fit_lookup, lookup_loss};
 

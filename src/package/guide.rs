@@ -55,7 +55,7 @@ pub(super) fn guide(contents: &Contents, package: &Package) -> String {
          ```\n\n\
          GLSL takes one `sampler2DArray` in place of texture and sampler. To sample the table in another\n\
          way, fetch the layers at `ltc_table_coordinates(surface, {size}.0)`: two for one lobe, for\n\
-         `ltc_lobes_of(ltc_lobe(...))`; three for two lobes, for `ltc_two_lobes`; five for three, for\n\
+         `ltc_lobes_of(surface, ltc_lobe(...))`; three for two lobes, for `ltc_two_lobes`; five for three, for\n\
          `ltc_three_lobes`.\n\n\
          ## Table files\n\n",
     ));

@@ -63,11 +63,14 @@ pub use quad::{
     ltc_quad_lobe, ltc_quad_toward,
 };
 pub use real::{Real, Vector, angle_excess, hyperbolic_excess};
-pub use several::{LobeSum, LtcLobes, ltc_lobes_together, ltc_lobes_value};
+pub use several::{
+    LTC_MEAN_SHIFT, LobeSum, LtcLobes, LtcSpecular, ltc_all_around, ltc_lobes_of, ltc_lobes_part,
+    ltc_lobes_together, ltc_lobes_value, ltc_mean_schlick, ltc_three_lobes, ltc_two_lobes,
+};
 pub use surface::{
     LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
-    ltc_lobe_value, ltc_planar_lobe, ltc_received, ltc_received_vector, ltc_reflectance, ltc_specular,
-    ltc_surface, ltc_table_coordinates, ltc_transform, ltc_transform_normal,
+    ltc_lobe_value, ltc_planar_lobe, ltc_received, ltc_received_vector, ltc_reflectance, ltc_schlick,
+    ltc_specular, ltc_surface, ltc_table_coordinates, ltc_transform, ltc_transform_normal,
 };
 pub use texture::{
     LTC_LOOKUP, LookupConstants, LtcLookup, ltc_lookup, ltc_lookup_with, ltc_outlined,

@@ -167,14 +167,8 @@ pub fn ltc_reflectance<R: Real>(
     normal_reflectance * (value.y() - value.z()) + grazing_reflectance * value.z()
 }
 
-/// The parts (specular, fresnel) of a light's value from the `coverage` of a lobe and the mean
-/// direction `toward` the light in the lobe's space.
-pub fn ltc_specular<R: Real>(
-    surface: &LtcSurface<R>,
-    lobe: &LtcLobe<R>,
-    coverage: R,
-    toward: R::Vec3,
-) -> R::Vec2 {
+/// Schlick's factor (1 − v·h)⁵ for light from a direction `toward` in the lobe's space, of any length.
+pub fn ltc_schlick<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, toward: R::Vec3) -> R {
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
     let direction = ltc_direction::<R>(
         lobe.normal_x * toward.x() + lobe.normal_y * toward.y() + lobe.normal_z * toward.z(),
@@ -183,9 +177,21 @@ pub fn ltc_specular<R: Real>(
         surface.sin_view * surface.tangent.dot(direction) + surface.cos_view * surface.normal.dot(direction);
     let half_cosine = (half + half * along).clamp(zero, one);
     let f = one - half_cosine * half_cosine.max(R::new(1e-20)).inverse_sqrt();
-    let schlick = f * f * f * f * f;
+    f * f * f * f * f
+}
+
+/// The parts (specular, fresnel) of a light's value from the `coverage` of a lobe and the mean
+/// direction `toward` the light in the lobe's space.
+pub fn ltc_specular<R: Real>(
+    surface: &LtcSurface<R>,
+    lobe: &LtcLobe<R>,
+    coverage: R,
+    toward: R::Vec3,
+) -> R::Vec2 {
+    let schlick = ltc_schlick(surface, lobe, toward);
     let whole = coverage * coverage;
-    [coverage * lobe.albedo, coverage * (lobe.albedo * schlick * (one - whole) + lobe.fresnel * whole)].into()
+    let rest = R::new(1.0) - whole;
+    [coverage * lobe.albedo, coverage * (lobe.albedo * schlick * rest + lobe.fresnel * whole)].into()
 }
 
 /// The parts (specular, fresnel) of a lobe from the vector form factor in its space.

@@ -13,10 +13,8 @@ use super::polygon::{
 };
 use super::quad::{ltc_quad_begin, ltc_quad_diffuse, ltc_quad_lobe, ltc_quad_toward};
 use super::real::{Real, Vector};
-use super::several::{LtcLobes, ltc_lobes_together, ltc_lobes_value};
-use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_lobe_value, ltc_reflectance, ltc_surface,
-};
+use super::several::{LobeSum, LtcSpecular, ltc_lobes_of, ltc_lobes_together, ltc_lobes_value};
+use super::surface::{LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_reflectance, ltc_surface};
 use super::texture::{LtcLookup, ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup};
 use super::tube::{ltc_tube_begin, ltc_tube_diffuse, ltc_tube_lobe};
 use crate::effects::{Effect, Effects};
@@ -78,9 +76,9 @@ pub struct LtcShading<R: Real> {
     /// The point and its frame.
     pub surface: LtcSurface<R>,
     /// The specular lobes; an anisotropic surface has one.
-    pub specular: Option<LtcLobes<R>>,
+    pub specular: Option<LtcSpecular<R>>,
     /// The coat's lobes.
-    pub coat: Option<LtcLobes<R>>,
+    pub coat: Option<LtcSpecular<R>>,
     /// The sheen's lobe.
     pub sheen: Option<LtcLobe<R>>,
     /// The lobe of a rough diffuse part.
@@ -159,14 +157,19 @@ pub fn ltc_shading<R: Real>(
         let alpha = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         let [along, across] = alpha.into();
         let anisotropy = ltc_anisotropy(&surface, material.grain, along, across);
-        Some(LtcLobes::new(&[table.anisotropic_lobe(&surface, &anisotropy)]))
+        let lobe = table.anisotropic_lobe(&surface, &anisotropy);
+        Some(if on(Effect::SecondLobe) {
+            LtcSpecular::Several(ltc_lobes_of(&surface, lobe))
+        } else {
+            LtcSpecular::One(lobe)
+        })
     } else {
-        on(Effect::Ggx).then(|| table.lobes(&surface, effects))
+        on(Effect::Ggx).then(|| table.specular(&surface, effects))
     };
     LtcShading {
         surface,
         specular,
-        coat: on(Effect::ClearCoat).then(|| table.lobes(&with(material.coat_roughness), effects)),
+        coat: on(Effect::ClearCoat).then(|| table.specular(&with(material.coat_roughness), effects)),
         sheen: on(Effect::Sheen).then(|| table.sheen_lobe(&with(material.sheen_roughness))),
         rough: on(Effect::RoughDiffuse).then(|| table.diffuse_lobe(&with(material.diffuse_roughness))),
         energy_compensation: on(Effect::EnergyCompensation),
@@ -180,7 +183,7 @@ fn received<R: Real>(
     toward: impl Fn(&LtcLobe<R>) -> R::Vec3,
 ) -> LtcReceived<R> {
     let zero: R = R::new(0.0);
-    let glossy = |lobes: &Option<LtcLobes<R>>| match lobes {
+    let glossy = |lobes: &Option<LtcSpecular<R>>| match lobes {
         Some(lobes) => ltc_lobes_value(&shading.surface, lobes, &toward),
         None => [zero, zero].into(),
     };
@@ -287,7 +290,7 @@ pub fn ltc_reflected<R: Real>(
         let (normal, grazing) = (material.normal_reflectance, material.grazing_reflectance);
         let mut glossy = ltc_reflectance::<R>(value(specular, fresnel), normal, grazing);
         if shading.energy_compensation {
-            let gain = ltc_energy_compensation(&ltc_lobes_together(lobes), normal);
+            let gain = ltc_energy_compensation(&ltc_lobes_together(&shading.surface, lobes), normal);
             glossy = R::Vec3::new(glossy.x() * gain.x(), glossy.y() * gain.y(), glossy.z() * gain.z());
         }
         radiance = radiance + glossy;
@@ -298,8 +301,13 @@ pub fn ltc_reflected<R: Real>(
     if let Some(coat) = &shading.coat {
         let [gloss, fresnel] = received.coat.into();
         let (reflectance, weight) = (material.coat_reflectance, material.coat);
-        radiance =
-            ltc_coat_over(radiance, &ltc_lobes_together(coat), value(gloss, fresnel), reflectance, weight);
+        radiance = ltc_coat_over(
+            radiance,
+            &ltc_lobes_together(&shading.surface, coat),
+            value(gloss, fresnel),
+            reflectance,
+            weight,
+        );
     }
     radiance
 }
@@ -344,12 +352,12 @@ pub fn ltc_reflected_picture<R: Real>(
         (toward, ltc_rectangle_lookup(surface, lobe, corners, toward, texels, false))
     };
     // Of several lobes each sees its own colour; Schlick's part shares that of the specular one.
-    let several = |lobes: &LtcLobes<R>| {
+    let several = |lobes: &LtcSpecular<R>| {
         let mut value = [zero, zero];
         let mut colour = R::Vec3::new(zero, zero, zero);
-        for lobe in lobes.as_slice() {
+        for lobe in lobes.lobes() {
             let (toward, at) = look(lobe);
-            let [specular, fresnel] = ltc_lobe_value(surface, lobe, toward).into();
+            let [specular, fresnel] = lobes.part(surface, lobe, toward).into();
             value = [value[0] + specular, value[1] + fresnel];
             let share = specular / value[0].max(R::new(LTC_TINY));
             colour = colour + (sample(at.place, at.level) - colour) * share;

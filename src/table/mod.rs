@@ -5,6 +5,9 @@ mod anisotropic;
 mod container;
 #[cfg(feature = "bake")]
 mod pack;
+mod several;
+#[cfg(feature = "bake")]
+mod several_pack;
 
 pub use anisotropic::{AnisotropicTable, stretched_lobe};
 #[cfg(feature = "package")]
@@ -13,13 +16,11 @@ pub use container::{Container, ContainerError};
 pub use pack::clipped_sphere;
 
 pub use crate::effects::Layer;
-use crate::effects::{Effect, Effects};
 
 use half::f16;
 
 use crate::shade::{
-    LtcLobe, LtcLobes, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface,
-    ltc_table_coordinates,
+    LtcLobe, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface, ltc_table_coordinates,
 };
 
 /// A table of half-precision texels: layers of `size` × `size` texels of four numbers, at first
@@ -91,18 +92,6 @@ impl Table {
             .expect("the embedded layer is whole")
     }
 
-    /// The embedded layers of a sum of two lobes, for GGX.
-    pub fn two_lobes() -> Self {
-        Self::from_layers(crate::TABLE_SIZE, &Layer::TWO_LOBES, crate::TABLE_TWO_LOBES)
-            .expect("the embedded layers are whole")
-    }
-
-    /// The embedded layers of a sum of three lobes, for GGX.
-    pub fn three_lobes() -> Self {
-        Self::from_layers(crate::TABLE_SIZE, &Layer::THREE_LOBES, crate::TABLE_THREE_LOBES)
-            .expect("the embedded layers are whole")
-    }
-
     /// This table with the layers of another one behind its own.
     ///
     /// # Panics
@@ -142,7 +131,7 @@ impl Table {
             | Layer::SecondOfThree
             | Layer::ThirdOfThree
             | Layer::WeightsOfThree
-            | Layer::SchlickOfThree => Self::three_lobes(),
+            | Layer::ExcessesOfThree => Self::three_lobes(),
             Layer::Sheen => Self::sheen(),
             Layer::Diffuse => Self::diffuse(),
             Layer::AnisotropicFirst | Layer::AnisotropicSecond => {
@@ -196,35 +185,6 @@ impl Table {
             Ok(Self { size, layers: layers.to_vec(), texels })
         } else {
             Err(error)
-        }
-    }
-
-    /// The lobes of a surface: as many as the effects say.
-    ///
-    /// # Panics
-    ///
-    /// If the table lacks their layers.
-    pub fn lobes<R: Real>(&self, surface: &LtcSurface<R>, effects: Effects) -> LtcLobes<R> {
-        if !effects.contains(Effect::SecondLobe) {
-            return LtcLobes::new(&[self.lobe(surface)]);
-        }
-        let at = ltc_table_coordinates(surface, R::new(self.size as f64));
-        let texel = |layer: Layer| -> [R; 4] {
-            let index = self.index(layer).unwrap_or_else(|| panic!("the table has no layer {layer:?}"));
-            self.sample::<R>(index, at).into()
-        };
-        let lobe = |shape: Layer, weight: R, schlick: R| {
-            let zero: R = R::new(0.0);
-            ltc_lobe(surface, texel(shape).into(), [weight, schlick, zero, zero].into())
-        };
-        if effects.contains(Effect::ThirdLobe) {
-            let (weights, schlick) = (texel(Layer::WeightsOfThree), texel(Layer::SchlickOfThree));
-            let shapes = [Layer::FirstOfThree, Layer::SecondOfThree, Layer::ThirdOfThree];
-            LtcLobes::new(&core::array::from_fn::<_, 3, _>(|i| lobe(shapes[i], weights[i], schlick[i])))
-        } else {
-            let weights = texel(Layer::WeightsOfTwo);
-            let shapes = [Layer::FirstOfTwo, Layer::SecondOfTwo];
-            LtcLobes::new(&core::array::from_fn::<_, 2, _>(|i| lobe(shapes[i], weights[i], weights[i + 2])))
         }
     }
 

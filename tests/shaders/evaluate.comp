@@ -36,7 +36,7 @@ void main() {
     vec2 at = ltc_table_coordinates(surface, table_size);
     vec4 shape = textureLod(sampler2DArray(table, table_sampler), vec3(at, 0.0), 0.0);
     vec4 amplitude = textureLod(sampler2DArray(table, table_sampler), vec3(at, 1.0), 0.0);
-    LtcLobes lobes = ltc_lobes_of(ltc_lobe(surface, shape, amplitude));
+    LtcLobes lobes = ltc_lobes_of(surface, ltc_lobe(surface, shape, amplitude));
 #else
     LtcLobes lobes = ltc_lobes_from_table(surface, table, float(textureSize(table, 0).x), 0);
 #endif

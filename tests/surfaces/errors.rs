@@ -189,7 +189,7 @@ fn a_device_agrees_with_the_twin() {
         let kernel = softbox::WGSL_EVALUATE
             .replace(
                 "ltc_lobes_from_table(surface, table, table_sampler, table_size, 0)",
-                &format!("ltc_lobes_of({make})"),
+                &format!("ltc_lobes_of(surface, {make})"),
             )
             .replace("vec4<f32>(value, 0.0)", &format!("vec4<f32>({combine}, 0.0)"));
         assert!(kernel.contains(make) && kernel.contains(combine), "the kernel has changed its words");

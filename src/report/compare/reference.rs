@@ -49,7 +49,7 @@ impl Method for Level {
     fn value(&self, quad: &Quad) -> [f64; 3] {
         let Input { position, normal, view, roughness, corners } = quad.into();
         let surface = ltc_surface::<f32>(position, normal, view, roughness);
-        let lobes = self.table.lobes(&surface, self.effects);
+        let lobes = self.table.specular(&surface, self.effects);
         let value: Vec3 = ltc_quad(&surface, &lobes, corners, false);
         value.to_array().map(f64::from)
     }
