@@ -20,7 +20,7 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(ltc_lobe(...)) from the two
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(surface, ltc_lobe(...)) from the two
 //      texels, or ltc_two_lobes from three, ltc_three_lobes from five.
 //   2. ltc_lobes_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
 //      ltc_polygon functions: a specular over a diffuse part.
@@ -165,7 +165,7 @@ struct LtcShape {
     float4 entries;
     // The lobe's part of the BRDF's integral of f cos, for F = 1.
     float albedo;
-    // Its part of the integral of f cos (1 - v.h)^5.
+    // For a single lobe the integral of f cos (1 - v.h)^5, for one of a sum its excess, see ltc_lobes_part.
     float fresnel;
 };
 
@@ -620,6 +620,9 @@ static const float LTC_OVER_TWO_PI = 0.15915494;
 // Roughness below which the lobe no longer changes: alpha = 0.0004.
 static const float LTC_ROUGHNESS_FLOOR = 0.02;
 
+// How far the mean direction of a light turns towards a lobe's axis in ltc_mean_schlick.
+static const float LTC_MEAN_SHIFT = 0.5;
+
 // Smallest length by which anything is divided; a reciprocal of it is still finite.
 static const float LTC_TINY = 1e-37;
 
@@ -803,23 +806,77 @@ LtcLobe ltc_lobe_from_table(LtcSurface surface, Texture2DArray<float4> table, Sa
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SECOND_LOBE) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
+// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
+// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
+// the surface point closely.
+float3 ltc_transform_normal(LtcLobe lobe, float3 v)
+{
+    return float3(dot(lobe.normal_x, v), dot(lobe.normal_y, v), dot(lobe.normal_z, v));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_GGX && LTC_SECOND_LOBE)
+// The vector form factor, in a lobe's space, of a light all around the surface: half the sum of the normals of the two
+// horizons.
+float3 ltc_all_around(LtcSurface surface, LtcLobe lobe)
+{
+    const float3 _e3 = ltc_transform_normal(lobe, surface.normal);
+    float3 unit = (_e3 * rsqrt(max(dot(_e3, _e3), LTC_TINY)));
+    return float3((0.5 * unit.xy), (0.5 + (0.5 * unit.z)));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// Schlick's factor (1 - v.h)^5 for light from a direction `toward` in the lobe's space, of any length.
+float ltc_schlick(LtcSurface surface, LtcLobe lobe, float3 toward)
+{
+    const float3 _e14 = ltc_direction((((lobe.normal_x * toward.x) + (lobe.normal_y * toward.y)) + (lobe.normal_z * toward.z)));
+    float along = ((surface.sin_view * dot(surface.tangent, _e14)) + (surface.cos_view * dot(surface.normal, _e14)));
+    float half_cosine = clamp((0.5 + (0.5 * along)), 0.0, 1.0);
+    float f = (1.0 - (half_cosine * rsqrt(max(half_cosine, 1e-20))));
+    return ((((f * f) * f) * f) * f);
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_GGX && LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// Schlick's factor at the mean direction of a light, from its vector form factor `toward` in a lobe's space.
+//
+// The vector form factor t averages directions without the lobe's cosine. For a cap around a direction d, so small
+// that |t| is the square of its angle, the mean with the cosine is d cos + |t|/4 z, up to a factor: z turns in by
+// |t|^2/(4 cos) beside t. The cosine is left out, and LTC_MEAN_SHIFT is not the derived factor but the round number that
+// did best of a few on random quads.
+float ltc_mean_schlick(LtcSurface surface, LtcLobe lobe, float3 toward)
+{
+    const float _e10 = ltc_schlick(surface, lobe, float3(toward.xy, (toward.z + (LTC_MEAN_SHIFT * dot(toward, toward)))));
+    return _e10;
+}
+#endif
+
 #if LTC_ANISOTROPIC || (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX
 // A sum of one lobe, whatever the switches say.
-LtcLobes ltc_lobes_of(LtcLobe lobe)
+LtcLobes ltc_lobes_of(LtcSurface surface, LtcLobe lobe)
 {
     LtcLobes lobes = (LtcLobes)0;
 
     lobes.first = lobe;
     lobes.count = int(1);
-    LtcLobes _e5 = lobes;
-    const LtcLobes ltclobes = _e5;
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        const float3 _e11 = ltc_all_around(surface, lobe);
+        const float _e12 = ltc_mean_schlick(surface, lobe, _e11);
+        lobes.first.fresnel = (lobe.fresnel - (lobe.albedo * _e12));
+    }
+#endif
+    LtcLobes _e15 = lobes;
+    const LtcLobes ltclobes = _e15;
     return ltclobes;
 }
 #endif
 
 #if LTC_SECOND_LOBE
-// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (weight of the
-// first, weight of the second) for F = 1, then the same for Schlick's part.
+// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (albedo of the
+// first, of the second, excess of the first, of the second); see ltc_lobes_part.
 LtcLobes ltc_two_lobes(LtcSurface surface, float4 first, float4 second, float4 weights)
 {
     LtcLobes lobes = (LtcLobes)0;
@@ -836,17 +893,17 @@ LtcLobes ltc_two_lobes(LtcSurface surface, float4 first, float4 second, float4 w
 #endif
 
 #if LTC_THIRD_LOBE
-// The sum of three lobes that five texels of the table describe: their shapes, their weights for F = 1, and those for
-// Schlick's part.
-LtcLobes ltc_three_lobes(LtcSurface surface, float4 first_1, float4 second_1, float4 third, float4 weights, float4 schlick)
+// The sum of three lobes that five texels of the table describe: their shapes, their albedos, and their excesses;
+// see ltc_lobes_part.
+LtcLobes ltc_three_lobes(LtcSurface surface, float4 first_1, float4 second_1, float4 third, float4 albedos, float4 excesses)
 {
     LtcLobes lobes = (LtcLobes)0;
 
-    const LtcLobe _e13 = ltc_lobe(surface, first_1, float4(weights.x, schlick.x, 0.0, 0.0));
+    const LtcLobe _e13 = ltc_lobe(surface, first_1, float4(albedos.x, excesses.x, 0.0, 0.0));
     lobes.first = _e13;
-    const LtcShape _e17 = ltc_shape(surface, second_1, weights.y, schlick.y);
+    const LtcShape _e17 = ltc_shape(surface, second_1, albedos.y, excesses.y);
     lobes.second = _e17;
-    const LtcShape _e21 = ltc_shape(surface, third, weights.z, schlick.z);
+    const LtcShape _e21 = ltc_shape(surface, third, albedos.z, excesses.z);
     lobes.third = _e21;
     lobes.count = int(3);
     LtcLobes _e24 = lobes;
@@ -866,7 +923,7 @@ LtcLobes ltc_lobes_from_table(LtcSurface surface, Texture2DArray<float4> table, 
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         const LtcLobe _e8 = ltc_lobe_from_table(surface, table, table_sampler, table_size);
-        const LtcLobes _e9 = ltc_lobes_of(_e8);
+        const LtcLobes _e9 = ltc_lobes_of(surface, _e8);
         lobes = _e9;
     }
 #endif
@@ -884,9 +941,9 @@ LtcLobes ltc_lobes_from_table(LtcSurface surface, Texture2DArray<float4> table, 
 #endif
 #if LTC_THIRD_LOBE
         if (ltc_use_third_lobe) {
-            float4 weights = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(3)))), 0.0);
-            float4 schlick = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(4)))), 0.0);
-            const LtcLobes _e34 = ltc_three_lobes(surface, first, second, next, weights, schlick);
+            float4 albedos = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(3)))), 0.0);
+            float4 excesses = table.SampleLevel(table_sampler, float3(_e11, asint(asuint(layer) + asuint(int(4)))), 0.0);
+            const LtcLobes _e34 = ltc_three_lobes(surface, first, second, next, albedos, excesses);
             lobes = _e34;
         }
 #endif
@@ -898,31 +955,97 @@ LtcLobes ltc_lobes_from_table(LtcSurface surface, Texture2DArray<float4> table, 
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
+// its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
+//
+// A lobe's shape is fitted to the whole BRDF. Schlick's part has another shape, and knows it from
+// the direction: for a small light it is (1 - v.h)^5 of the specular part, v.h taken at the light;
+// for a light that covers the whole lobe it is the table's average. The square of the coverage
+// leads from one to the other.
+float2 ltc_specular(LtcSurface surface, LtcLobe lobe, float coverage, float3 toward)
+{
+    const float _e4 = ltc_schlick(surface, lobe, toward);
+    float whole = (coverage * coverage);
+    return (coverage * float2(lobe.albedo, (((lobe.albedo * _e4) * (1.0 - whole)) + (lobe.fresnel * whole))));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
+float2 ltc_lobe_value(LtcSurface surface, LtcLobe lobe, float3 toward)
+{
+    const float2 _e9 = ltc_specular(surface, lobe, clamp((toward.z / lobe.share), 0.0, 1.0), toward);
+    return _e9;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) of one lobe of a sum from the vector form factor in its space.
+//
+// A single lobe is as in ltc_specular. In a sum Schlick's factor is that of the mean direction of the light. What a light
+// all around gets beyond that, the lobe's `fresnel` holds as an excess of either sign; it comes in with the variance of
+// the factor over the light, for which the square of the coverage stands.
+float2 ltc_lobes_part(LtcSurface surface, LtcLobe lobe, float3 toward)
+{
+    float2 value = (0.0).xx;
+
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        const float2 _e8 = ltc_lobe_value(surface, lobe, toward);
+        value = _e8;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        float coverage = clamp((toward.z / lobe.share), 0.0, 1.0);
+        const float _e17 = ltc_mean_schlick(surface, lobe, toward);
+        float schlick = ((lobe.albedo * _e17) + (lobe.fresnel * (coverage * coverage)));
+        value = (coverage * float2(lobe.albedo, clamp(schlick, 0.0, lobe.albedo)));
+    }
+#endif
+    float2 _e29 = value;
+    return _e29;
+}
+#endif
+
 #if LTC_CLEARCOAT || LTC_GGX
 // The first lobe with the albedo and the Schlick part of all: for functions that ask how much a surface reflects, not where.
-LtcLobe ltc_lobes_together(LtcLobes lobes)
+LtcLobe ltc_lobes_together(LtcSurface surface, LtcLobes lobes)
 {
     LtcLobe together = (LtcLobe)0;
+    float2 sum = (float2)0;
 
     together = lobes.first;
 #if LTC_SECOND_LOBE
-    if ((ltc_use_second_lobe & (lobes.count > int(1)))) {
-        float _e9 = together.albedo;
-        together.albedo = (_e9 + lobes.second.albedo);
-        float _e14 = together.fresnel;
-        together.fresnel = (_e14 + lobes.second.fresnel);
-    }
-#endif
+    if (ltc_use_second_lobe) {
+        const float3 _e7 = ltc_all_around(surface, lobes.first);
+        const float2 _e8 = ltc_lobes_part(surface, lobes.first, _e7);
+        sum = _e8;
+        if ((lobes.count > int(1))) {
+            const LtcLobe _e14 = ltc_shape_lobe(surface, lobes.second);
+            float2 _e15 = sum;
+            const float3 _e16 = ltc_all_around(surface, _e14);
+            const float2 _e17 = ltc_lobes_part(surface, _e14, _e16);
+            sum = (_e15 + _e17);
+        }
 #if LTC_THIRD_LOBE
-    if ((ltc_use_third_lobe & (lobes.count > int(2)))) {
-        float _e24 = together.albedo;
-        together.albedo = (_e24 + lobes.third.albedo);
-        float _e29 = together.fresnel;
-        together.fresnel = (_e29 + lobes.third.fresnel);
+        if ((ltc_use_third_lobe & (lobes.count > int(2)))) {
+            const LtcLobe _e25 = ltc_shape_lobe(surface, lobes.third);
+            float2 _e26 = sum;
+            const float3 _e27 = ltc_all_around(surface, _e25);
+            const float2 _e28 = ltc_lobes_part(surface, _e25, _e27);
+            sum = (_e26 + _e28);
+        }
+#endif
+        float _e32 = sum.x;
+        together.albedo = _e32;
+        float _e35 = sum.y;
+        together.fresnel = _e35;
     }
 #endif
-    LtcLobe _e33 = together;
-    const LtcLobe ltclobe = _e33;
+    LtcLobe _e36 = together;
+    const LtcLobe ltclobe = _e36;
     return ltclobe;
 }
 #endif
@@ -935,16 +1058,6 @@ float3 ltc_transform(LtcLobe lobe, float3 v)
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
-// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
-// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
-// the surface point closely.
-float3 ltc_transform_normal(LtcLobe lobe, float3 v)
-{
-    return float3(dot(lobe.normal_x, v), dot(lobe.normal_y, v), dot(lobe.normal_z, v));
-}
-#endif
-
 #if LTC_GGX
 // Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
 // `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
@@ -952,35 +1065,6 @@ float3 ltc_transform_normal(LtcLobe lobe, float3 v)
 float3 ltc_reflectance(float3 value, float3 normal_reflectance, float3 grazing_reflectance)
 {
     return ((normal_reflectance * (value.y - value.z)) + (grazing_reflectance * value.z));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
-// The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
-// its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
-//
-// A lobe's shape is fitted to the whole BRDF. Schlick's part has another shape, and knows it from
-// the direction: for a small light it is (1 - v.h)^5 of the specular part, v.h taken at the light;
-// for a light that covers the whole lobe it is the table's average. The square of the coverage
-// leads from one to the other.
-float2 ltc_specular(LtcSurface surface, LtcLobe lobe, float coverage, float3 toward)
-{
-    const float3 _e15 = ltc_direction((((lobe.normal_x * toward.x) + (lobe.normal_y * toward.y)) + (lobe.normal_z * toward.z)));
-    float along = ((surface.sin_view * dot(surface.tangent, _e15)) + (surface.cos_view * dot(surface.normal, _e15)));
-    float half_cosine = clamp((0.5 + (0.5 * along)), 0.0, 1.0);
-    float f = (1.0 - (half_cosine * rsqrt(max(half_cosine, 1e-20))));
-    float schlick = ((((f * f) * f) * f) * f);
-    float whole = (coverage * coverage);
-    return (coverage * float2(lobe.albedo, (((lobe.albedo * schlick) * (1.0 - whole)) + (lobe.fresnel * whole))));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
-// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
-float2 ltc_lobe_value(LtcSurface surface, LtcLobe lobe, float3 toward)
-{
-    const float2 _e9 = ltc_specular(surface, lobe, clamp((toward.z / lobe.share), 0.0, 1.0), toward);
-    return _e9;
 }
 #endif
 
@@ -1628,7 +1712,7 @@ float2 ltc_quad_specular(LtcSurface surface, LtcQuad quad, LtcLobes lobes)
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         const float3 _e10 = ltc_quad_lobe(quad, lobes.first);
-        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        const float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -1641,7 +1725,7 @@ float2 ltc_quad_specular(LtcSurface surface, LtcQuad quad, LtcLobes lobes)
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             const float3 _e22 = ltc_quad_lobe(quad, _e21);
-            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            const float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -1847,11 +1931,11 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
 // Starts a lobe's part of an outline.
 LtcOutlineLobe ltc_outline_lobe_begin()
 {
-    LtcOutlineLobe sum_1 = (LtcOutlineLobe)0;
+    LtcOutlineLobe sum_2 = (LtcOutlineLobe)0;
 
-    sum_1.crossed = false;
-    sum_1.sum = (0.0).xxx;
-    LtcOutlineLobe _e6 = sum_1;
+    sum_2.crossed = false;
+    sum_2.sum = (0.0).xxx;
+    LtcOutlineLobe _e6 = sum_2;
     const LtcOutlineLobe ltcoutlinelobe = _e6;
     return ltcoutlinelobe;
 }
@@ -1859,7 +1943,7 @@ LtcOutlineLobe ltc_outline_lobe_begin()
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
-void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, float3 reference, float3 a, float3 a_offset, float3 b, float3 b_offset, float3 normal)
+void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_3, LtcLobe lobe, float3 reference, float3 a, float3 a_offset, float3 b, float3 b_offset, float3 normal)
 {
     float3 start = (float3)0;
     float3 start_offset = (float3)0;
@@ -1889,33 +1973,33 @@ void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, float3 refe
         float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
         const float3 _e39 = ltc_crossing(above, below, (_e14 ? _e12 : -(_e12)));
         float3 crossing_offset_1 = (above_offset + ((below_offset - above_offset) * t));
-        bool _e44 = sum_2.crossed;
+        bool _e44 = sum_3.crossed;
         if (_e44) {
-            float3 base = sum_2.crossing;
-            float3 base_offset = sum_2.crossing_offset;
+            float3 base = sum_3.crossing;
+            float3 base_offset = sum_3.crossing_offset;
             float3 horizon_start = (_e14 ? _e39 : base);
             float3 horizon_end = (_e14 ? base : _e39);
-            float3 _e52 = sum_2.sum;
+            float3 _e52 = sum_3.sum;
             const float3 _e56 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
             const float3 _e57 = ltc_edge_from(reference, horizon_start, (_e14 ? crossing_offset_1 : base_offset), horizon_end, (_e14 ? base_offset : crossing_offset_1), _e56);
-            sum_2.sum = (_e52 - _e57);
+            sum_3.sum = (_e52 - _e57);
         } else {
-            sum_2.crossed = true;
-            sum_2.crossing = _e39;
-            sum_2.crossing_offset = crossing_offset_1;
+            sum_3.crossed = true;
+            sum_3.crossing = _e39;
+            sum_3.crossing_offset = crossing_offset_1;
         }
         start = (_e14 ? _e8 : _e39);
         start_offset = (_e14 ? _e10 : crossing_offset_1);
         end = (_e14 ? _e39 : _e9);
         end_offset = (_e14 ? crossing_offset_1 : _e11);
     }
-    float3 _e68 = sum_2.sum;
+    float3 _e68 = sum_3.sum;
     float3 _e69 = start;
     float3 _e70 = start_offset;
     float3 _e71 = end;
     float3 _e72 = end_offset;
     const float3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
-    sum_2.sum = (_e68 - _e73);
+    sum_3.sum = (_e68 - _e73);
     return;
 }
 #endif
@@ -1948,9 +2032,9 @@ float ltc_outline_diffuse(LtcOutline outline, bool two_sided)
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // The vector form factor of a closed outline in a lobe's space, cut at both horizons, towards the light.
-float3 ltc_outline_lobe(LtcOutline outline, LtcOutlineLobe sum_4, bool two_sided)
+float3 ltc_outline_lobe(LtcOutline outline, LtcOutlineLobe sum_5, bool two_sided)
 {
-    const float3 _e9 = ltc_received_vector((sum_4.sum * LTC_OVER_TWO_PI), (outline.facing < 0.0), two_sided);
+    const float3 _e9 = ltc_received_vector((sum_5.sum * LTC_OVER_TWO_PI), (outline.facing < 0.0), two_sided);
     return _e9;
 }
 #endif
@@ -2057,14 +2141,14 @@ float2 ltc_outline_specular(LtcSurface surface, LtcOutline outline, LtcOutlineLo
     float2 value = (float2)0;
 
     const float3 _e7 = ltc_outline_lobe(outline, sums.first, two_sided);
-    const float2 _e8 = ltc_lobe_value(surface, lobes.first, _e7);
+    const float2 _e8 = ltc_lobes_part(surface, lobes.first, _e7);
     value = _e8;
 #if LTC_SECOND_LOBE
     if ((ltc_use_second_lobe & (lobes.count > int(1)))) {
         float2 _e15 = value;
         const LtcLobe _e17 = ltc_shape_lobe(surface, lobes.second);
         const float3 _e19 = ltc_outline_lobe(outline, sums.second, two_sided);
-        const float2 _e20 = ltc_lobe_value(surface, _e17, _e19);
+        const float2 _e20 = ltc_lobes_part(surface, _e17, _e19);
         value = (_e15 + _e20);
     }
 #endif
@@ -2073,7 +2157,7 @@ float2 ltc_outline_specular(LtcSurface surface, LtcOutline outline, LtcOutlineLo
         float2 _e27 = value;
         const LtcLobe _e29 = ltc_shape_lobe(surface, lobes.third);
         const float3 _e31 = ltc_outline_lobe(outline, sums.third, two_sided);
-        const float2 _e32 = ltc_lobe_value(surface, _e29, _e31);
+        const float2 _e32 = ltc_lobes_part(surface, _e29, _e31);
         value = (_e27 + _e32);
     }
 #endif
@@ -2434,7 +2518,7 @@ float2 ltc_tube_specular(LtcSurface surface, LtcTube tube, LtcLobes lobes)
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         const float3 _e10 = ltc_tube_lobe(tube, lobes.first);
-        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        const float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -2447,7 +2531,7 @@ float2 ltc_tube_specular(LtcSurface surface, LtcTube tube, LtcLobes lobes)
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             const float3 _e22 = ltc_tube_lobe(tube, _e21);
-            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            const float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -2658,7 +2742,7 @@ LtcSeen ltc_lobe_picture(LtcSurface surface, LtcQuad quad, LtcLobe lobe, float3 
     const LtcLookup _e11 = ltc_rectangle_lookup(surface, lobe, a, b, d, _e9, texels, false);
     const float4 _e14 = ltc_texture_fetch(picture, picture_sampler, _e11);
     seen.colour = _e14.xyz;
-    const float2 _e17 = ltc_lobe_value(surface, lobe, _e9);
+    const float2 _e17 = ltc_lobes_part(surface, lobe, _e9);
     seen.value = _e17;
     LtcSeen _e18 = seen;
     const LtcSeen ltcseen = _e18;
@@ -3406,7 +3490,7 @@ float2 ltc_disk_specular(LtcSurface surface, LtcDisk disk, LtcLobes lobes)
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         const float3 _e10 = ltc_disk_lobe(disk, lobes.first);
-        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        const float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -3419,7 +3503,7 @@ float2 ltc_disk_specular(LtcSurface surface, LtcDisk disk, LtcLobes lobes)
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             const float3 _e22 = ltc_disk_lobe(disk, _e21);
-            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            const float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -3563,7 +3647,7 @@ float2 ltc_sphere_specular(LtcSurface surface, LtcSphere sphere, LtcLobes lobes)
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         const float3 _e10 = ltc_sphere_lobe(sphere, lobes.first);
-        const float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        const float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -3576,7 +3660,7 @@ float2 ltc_sphere_specular(LtcSurface surface, LtcSphere sphere, LtcLobes lobes)
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             const float3 _e22 = ltc_sphere_lobe(sphere, _e21);
-            const float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            const float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -3933,7 +4017,7 @@ LtcShading ltc_shading(float3 position, float3 normal, float3 view, LtcMaterial 
         const float2 _e19 = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         const LtcAnisotropy _e23 = ltc_anisotropy(_e9, material.grain, _e19.x, _e19.y);
         const LtcLobe _e26 = ltc_anisotropic_lobe_from_table(_e9, _e23, table, table_sampler, table_size, layers.anisotropic);
-        const LtcLobes _e27 = ltc_lobes_of(_e26);
+        const LtcLobes _e27 = ltc_lobes_of(_e9, _e26);
         shading.specular = _e27;
     } else {
 #else
@@ -4306,33 +4390,33 @@ float3 ltc_reflected(LtcShading shading, LtcMaterial material, LtcReceived recei
 #if LTC_ENERGY_COMPENSATION
         if (ltc_use_energy_compensation) {
             float3 _e32 = specular_6;
-            const LtcLobe _e34 = ltc_lobes_together(shading.specular);
-            const float3 _e36 = ltc_energy_compensation(_e34, material.normal_reflectance);
-            specular_6 = (_e32 * _e36);
+            const LtcLobe _e35 = ltc_lobes_together(shading.surface, shading.specular);
+            const float3 _e37 = ltc_energy_compensation(_e35, material.normal_reflectance);
+            specular_6 = (_e32 * _e37);
         }
 #endif
-        float3 _e38 = radiance;
-        float3 _e39 = specular_6;
-        radiance = (_e38 + _e39);
+        float3 _e39 = radiance;
+        float3 _e40 = specular_6;
+        radiance = (_e39 + _e40);
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        float3 _e42 = radiance;
-        const float3 _e49 = ltc_sheen_over(_e42, shading.sheen, float3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
-        radiance = _e49;
+        float3 _e43 = radiance;
+        const float3 _e50 = ltc_sheen_over(_e43, shading.sheen, float3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
+        radiance = _e50;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        float3 _e51 = radiance;
-        const LtcLobe _e53 = ltc_lobes_together(shading.coat);
-        const float3 _e59 = ltc_coat_over(_e51, _e53, float3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
-        radiance = _e59;
+        float3 _e52 = radiance;
+        const LtcLobe _e55 = ltc_lobes_together(shading.surface, shading.coat);
+        const float3 _e61 = ltc_coat_over(_e52, _e55, float3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = _e61;
     }
 #endif
-    float3 _e60 = radiance;
-    return _e60;
+    float3 _e62 = radiance;
+    return _e62;
 }
 
 #if LTC_TEXTURED

@@ -20,7 +20,7 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(ltc_lobe(...)) from the two
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(surface, ltc_lobe(...)) from the two
 //      texels, or ltc_two_lobes from three, ltc_three_lobes from five.
 //   2. ltc_lobes_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
 //      ltc_polygon functions: a specular over a diffuse part.
@@ -169,7 +169,7 @@ struct LtcShape {
     metal::float4 entries;
     // The lobe's part of the BRDF's integral of f cos, for F = 1.
     float albedo;
-    // Its part of the integral of f cos (1 - v.h)^5.
+    // For a single lobe the integral of f cos (1 - v.h)^5, for one of a sum its excess, see ltc_lobes_part.
     float fresnel;
 };
 
@@ -624,6 +624,9 @@ constant float LTC_OVER_TWO_PI = 0.15915494;
 // Roughness below which the lobe no longer changes: alpha = 0.0004.
 constant float LTC_ROUGHNESS_FLOOR = 0.02;
 
+// How far the mean direction of a light turns towards a lobe's axis in ltc_mean_schlick.
+constant float LTC_MEAN_SHIFT = 0.5;
+
 // Smallest length by which anything is divided; a reciprocal of it is still finite.
 constant float LTC_TINY = 0.0000000000000000000000000000000000001;
 
@@ -823,22 +826,87 @@ LtcLobe ltc_lobe_from_table(
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SECOND_LOBE) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
+// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
+// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
+// the surface point closely.
+metal::float3 ltc_transform_normal(
+    LtcLobe lobe,
+    metal::float3 v
+) {
+    return metal::float3(metal::dot(lobe.normal_x, v), metal::dot(lobe.normal_y, v), metal::dot(lobe.normal_z, v));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_GGX && LTC_SECOND_LOBE)
+// The vector form factor, in a lobe's space, of a light all around the surface: half the sum of the normals of the two
+// horizons.
+metal::float3 ltc_all_around(
+    LtcSurface surface,
+    LtcLobe lobe
+) {
+    metal::float3 _e3 = ltc_transform_normal(lobe, surface.normal);
+    metal::float3 unit = _e3 * metal::rsqrt(metal::max(metal::dot(_e3, _e3), LTC_TINY));
+    return metal::float3(0.5 * unit.xy, 0.5 + (0.5 * unit.z));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// Schlick's factor (1 - v.h)^5 for light from a direction `toward` in the lobe's space, of any length.
+float ltc_schlick(
+    LtcSurface surface,
+    LtcLobe lobe,
+    metal::float3 toward
+) {
+    metal::float3 _e14 = ltc_direction(((lobe.normal_x * toward.x) + (lobe.normal_y * toward.y)) + (lobe.normal_z * toward.z));
+    float along = (surface.sin_view * metal::dot(surface.tangent, _e14)) + (surface.cos_view * metal::dot(surface.normal, _e14));
+    float half_cosine = metal::clamp(0.5 + (0.5 * along), 0.0, 1.0);
+    float f = 1.0 - (half_cosine * metal::rsqrt(metal::max(half_cosine, 0.00000000000000000001)));
+    return (((f * f) * f) * f) * f;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_GGX && LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// Schlick's factor at the mean direction of a light, from its vector form factor `toward` in a lobe's space.
+//
+// The vector form factor t averages directions without the lobe's cosine. For a cap around a direction d, so small
+// that |t| is the square of its angle, the mean with the cosine is d cos + |t|/4 z, up to a factor: z turns in by
+// |t|^2/(4 cos) beside t. The cosine is left out, and LTC_MEAN_SHIFT is not the derived factor but the round number that
+// did best of a few on random quads.
+float ltc_mean_schlick(
+    LtcSurface surface,
+    LtcLobe lobe,
+    metal::float3 toward
+) {
+    float _e10 = ltc_schlick(surface, lobe, metal::float3(toward.xy, toward.z + (LTC_MEAN_SHIFT * metal::dot(toward, toward))));
+    return _e10;
+}
+#endif
+
 #if LTC_ANISOTROPIC || (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX
 // A sum of one lobe, whatever the switches say.
 LtcLobes ltc_lobes_of(
+    LtcSurface surface,
     LtcLobe lobe
 ) {
     LtcLobes lobes = {};
     lobes.first = lobe;
     lobes.count = 1;
-    LtcLobes _e5 = lobes;
-    return _e5;
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        metal::float3 _e11 = ltc_all_around(surface, lobe);
+        float _e12 = ltc_mean_schlick(surface, lobe, _e11);
+        lobes.first.fresnel = lobe.fresnel - (lobe.albedo * _e12);
+    }
+#endif
+    LtcLobes _e15 = lobes;
+    return _e15;
 }
 #endif
 
 #if LTC_SECOND_LOBE
-// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (weight of the
-// first, weight of the second) for F = 1, then the same for Schlick's part.
+// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (albedo of the
+// first, of the second, excess of the first, of the second); see ltc_lobes_part.
 LtcLobes ltc_two_lobes(
     LtcSurface surface,
     metal::float4 first,
@@ -857,22 +925,22 @@ LtcLobes ltc_two_lobes(
 #endif
 
 #if LTC_THIRD_LOBE
-// The sum of three lobes that five texels of the table describe: their shapes, their weights for F = 1, and those for
-// Schlick's part.
+// The sum of three lobes that five texels of the table describe: their shapes, their albedos, and their excesses;
+// see ltc_lobes_part.
 LtcLobes ltc_three_lobes(
     LtcSurface surface,
     metal::float4 first_1,
     metal::float4 second_1,
     metal::float4 third,
-    metal::float4 weights,
-    metal::float4 schlick
+    metal::float4 albedos,
+    metal::float4 excesses
 ) {
     LtcLobes lobes = {};
-    LtcLobe _e13 = ltc_lobe(surface, first_1, metal::float4(weights.x, schlick.x, 0.0, 0.0));
+    LtcLobe _e13 = ltc_lobe(surface, first_1, metal::float4(albedos.x, excesses.x, 0.0, 0.0));
     lobes.first = _e13;
-    LtcShape _e17 = ltc_shape(surface, second_1, weights.y, schlick.y);
+    LtcShape _e17 = ltc_shape(surface, second_1, albedos.y, excesses.y);
     lobes.second = _e17;
-    LtcShape _e21 = ltc_shape(surface, third, weights.z, schlick.z);
+    LtcShape _e21 = ltc_shape(surface, third, albedos.z, excesses.z);
     lobes.third = _e21;
     lobes.count = 3;
     LtcLobes _e24 = lobes;
@@ -895,7 +963,7 @@ LtcLobes ltc_lobes_from_table(
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         LtcLobe _e8 = ltc_lobe_from_table(surface, table, table_sampler, table_size);
-        LtcLobes _e9 = ltc_lobes_of(_e8);
+        LtcLobes _e9 = ltc_lobes_of(surface, _e8);
         lobes = _e9;
     }
 #endif
@@ -913,9 +981,9 @@ LtcLobes ltc_lobes_from_table(
 #endif
 #if LTC_THIRD_LOBE
         if (ltc_use_third_lobe) {
-            metal::float4 weights = table.sample(table_sampler, _e11, as_type<int>(as_type<uint>(layer) + as_type<uint>(3)), metal::level(0.0));
-            metal::float4 schlick = table.sample(table_sampler, _e11, as_type<int>(as_type<uint>(layer) + as_type<uint>(4)), metal::level(0.0));
-            LtcLobes _e34 = ltc_three_lobes(surface, first, second, next, weights, schlick);
+            metal::float4 albedos = table.sample(table_sampler, _e11, as_type<int>(as_type<uint>(layer) + as_type<uint>(3)), metal::level(0.0));
+            metal::float4 excesses = table.sample(table_sampler, _e11, as_type<int>(as_type<uint>(layer) + as_type<uint>(4)), metal::level(0.0));
+            LtcLobes _e34 = ltc_three_lobes(surface, first, second, next, albedos, excesses);
             lobes = _e34;
         }
 #endif
@@ -926,70 +994,7 @@ LtcLobes ltc_lobes_from_table(
 }
 #endif
 
-#if LTC_CLEARCOAT || LTC_GGX
-// The first lobe with the albedo and the Schlick part of all: for functions that ask how much a surface reflects, not where.
-LtcLobe ltc_lobes_together(
-    LtcLobes lobes
-) {
-    LtcLobe together = {};
-    together = lobes.first;
-#if LTC_SECOND_LOBE
-    if (ltc_use_second_lobe & (lobes.count > 1)) {
-        float _e9 = together.albedo;
-        together.albedo = _e9 + lobes.second.albedo;
-        float _e14 = together.fresnel;
-        together.fresnel = _e14 + lobes.second.fresnel;
-    }
-#endif
-#if LTC_THIRD_LOBE
-    if (ltc_use_third_lobe & (lobes.count > 2)) {
-        float _e24 = together.albedo;
-        together.albedo = _e24 + lobes.third.albedo;
-        float _e29 = together.fresnel;
-        together.fresnel = _e29 + lobes.third.fresnel;
-    }
-#endif
-    LtcLobe _e33 = together;
-    return _e33;
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
-// `v`, a vector from the surface point, in the lobe's space.
-metal::float3 ltc_transform(
-    LtcLobe lobe,
-    metal::float3 v
-) {
-    return metal::float3(metal::dot(lobe.axis_x, v), metal::dot(lobe.axis_y, v), metal::dot(lobe.axis_z, v));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
-// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
-// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
-// the surface point closely.
-metal::float3 ltc_transform_normal(
-    LtcLobe lobe,
-    metal::float3 v
-) {
-    return metal::float3(metal::dot(lobe.normal_x, v), metal::dot(lobe.normal_y, v), metal::dot(lobe.normal_z, v));
-}
-#endif
-
-#if LTC_GGX
-// Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
-// `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
-// light of unit radiance (Schlick 1994).
-metal::float3 ltc_reflectance(
-    metal::float3 value,
-    metal::float3 normal_reflectance,
-    metal::float3 grazing_reflectance
-) {
-    return (normal_reflectance * (value.y - value.z)) + (grazing_reflectance * value.z);
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
 // The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
 // its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
 //
@@ -1003,17 +1008,13 @@ metal::float2 ltc_specular(
     float coverage,
     metal::float3 toward
 ) {
-    metal::float3 _e15 = ltc_direction(((lobe.normal_x * toward.x) + (lobe.normal_y * toward.y)) + (lobe.normal_z * toward.z));
-    float along = (surface.sin_view * metal::dot(surface.tangent, _e15)) + (surface.cos_view * metal::dot(surface.normal, _e15));
-    float half_cosine = metal::clamp(0.5 + (0.5 * along), 0.0, 1.0);
-    float f = 1.0 - (half_cosine * metal::rsqrt(metal::max(half_cosine, 0.00000000000000000001)));
-    float schlick = (((f * f) * f) * f) * f;
+    float _e4 = ltc_schlick(surface, lobe, toward);
     float whole = coverage * coverage;
-    return coverage * metal::float2(lobe.albedo, ((lobe.albedo * schlick) * (1.0 - whole)) + (lobe.fresnel * whole));
+    return coverage * metal::float2(lobe.albedo, ((lobe.albedo * _e4) * (1.0 - whole)) + (lobe.fresnel * whole));
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
 // The parts (specular, fresnel) of a lobe from the vector form factor in its space.
 metal::float2 ltc_lobe_value(
     LtcSurface surface,
@@ -1022,6 +1023,101 @@ metal::float2 ltc_lobe_value(
 ) {
     metal::float2 _e9 = ltc_specular(surface, lobe, metal::clamp(toward.z / lobe.share, 0.0, 1.0), toward);
     return _e9;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) of one lobe of a sum from the vector form factor in its space.
+//
+// A single lobe is as in ltc_specular. In a sum Schlick's factor is that of the mean direction of the light. What a light
+// all around gets beyond that, the lobe's `fresnel` holds as an excess of either sign; it comes in with the variance of
+// the factor over the light, for which the square of the coverage stands.
+metal::float2 ltc_lobes_part(
+    LtcSurface surface,
+    LtcLobe lobe,
+    metal::float3 toward
+) {
+    metal::float2 value = metal::float2(0.0);
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        metal::float2 _e8 = ltc_lobe_value(surface, lobe, toward);
+        value = _e8;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        float coverage = metal::clamp(toward.z / lobe.share, 0.0, 1.0);
+        float _e17 = ltc_mean_schlick(surface, lobe, toward);
+        float schlick = (lobe.albedo * _e17) + (lobe.fresnel * (coverage * coverage));
+        value = coverage * metal::float2(lobe.albedo, metal::clamp(schlick, 0.0, lobe.albedo));
+    }
+#endif
+    metal::float2 _e29 = value;
+    return _e29;
+}
+#endif
+
+#if LTC_CLEARCOAT || LTC_GGX
+// The first lobe with the albedo and the Schlick part of all: for functions that ask how much a surface reflects, not where.
+LtcLobe ltc_lobes_together(
+    LtcSurface surface,
+    LtcLobes lobes
+) {
+    LtcLobe together = {};
+    metal::float2 sum = {};
+    together = lobes.first;
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        metal::float3 _e7 = ltc_all_around(surface, lobes.first);
+        metal::float2 _e8 = ltc_lobes_part(surface, lobes.first, _e7);
+        sum = _e8;
+        if (lobes.count > 1) {
+            LtcLobe _e14 = ltc_shape_lobe(surface, lobes.second);
+            metal::float2 _e15 = sum;
+            metal::float3 _e16 = ltc_all_around(surface, _e14);
+            metal::float2 _e17 = ltc_lobes_part(surface, _e14, _e16);
+            sum = _e15 + _e17;
+        }
+#if LTC_THIRD_LOBE
+        if (ltc_use_third_lobe & (lobes.count > 2)) {
+            LtcLobe _e25 = ltc_shape_lobe(surface, lobes.third);
+            metal::float2 _e26 = sum;
+            metal::float3 _e27 = ltc_all_around(surface, _e25);
+            metal::float2 _e28 = ltc_lobes_part(surface, _e25, _e27);
+            sum = _e26 + _e28;
+        }
+#endif
+        float _e32 = sum.x;
+        together.albedo = _e32;
+        float _e35 = sum.y;
+        together.fresnel = _e35;
+    }
+#endif
+    LtcLobe _e36 = together;
+    return _e36;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
+// `v`, a vector from the surface point, in the lobe's space.
+metal::float3 ltc_transform(
+    LtcLobe lobe,
+    metal::float3 v
+) {
+    return metal::float3(metal::dot(lobe.axis_x, v), metal::dot(lobe.axis_y, v), metal::dot(lobe.axis_z, v));
+}
+#endif
+
+#if LTC_GGX
+// Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
+// `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
+// light of unit radiance (Schlick 1994).
+metal::float3 ltc_reflectance(
+    metal::float3 value,
+    metal::float3 normal_reflectance,
+    metal::float3 grazing_reflectance
+) {
+    return (normal_reflectance * (value.y - value.z)) + (grazing_reflectance * value.z);
 }
 #endif
 
@@ -1746,7 +1842,7 @@ metal::float2 ltc_quad_specular(
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         metal::float3 _e10 = ltc_quad_lobe(quad_5, lobes.first);
-        metal::float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        metal::float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -1759,7 +1855,7 @@ metal::float2 ltc_quad_specular(
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             metal::float3 _e22 = ltc_quad_lobe(quad_5, _e21);
-            metal::float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            metal::float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = _e19 + _e23;
             int _e25 = index;
             if (_e25 >= lobes.count) {
@@ -1979,10 +2075,10 @@ void ltc_outline_add(
 // Starts a lobe's part of an outline.
 LtcOutlineLobe ltc_outline_lobe_begin(
 ) {
-    LtcOutlineLobe sum_1 = {};
-    sum_1.crossed = false;
-    sum_1.sum = metal::float3(0.0);
-    LtcOutlineLobe _e6 = sum_1;
+    LtcOutlineLobe sum_2 = {};
+    sum_2.crossed = false;
+    sum_2.sum = metal::float3(0.0);
+    LtcOutlineLobe _e6 = sum_2;
     return _e6;
 }
 #endif
@@ -1990,7 +2086,7 @@ LtcOutlineLobe ltc_outline_lobe_begin(
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
 void ltc_outline_lobe_edge(
-    thread LtcOutlineLobe& sum_2,
+    thread LtcOutlineLobe& sum_3,
     LtcLobe lobe,
     metal::float3 reference,
     metal::float3 a,
@@ -2026,33 +2122,33 @@ void ltc_outline_lobe_edge(
         float t = metal::max(above.z, 0.0) / metal::max(above.z - below.z, LTC_TINY);
         metal::float3 _e39 = ltc_crossing(above, below, _e14 ? _e12 : -(_e12));
         metal::float3 crossing_offset_1 = above_offset + ((below_offset - above_offset) * t);
-        bool _e44 = sum_2.crossed;
+        bool _e44 = sum_3.crossed;
         if (_e44) {
-            metal::float3 base = sum_2.crossing;
-            metal::float3 base_offset = sum_2.crossing_offset;
+            metal::float3 base = sum_3.crossing;
+            metal::float3 base_offset = sum_3.crossing_offset;
             metal::float3 horizon_start = _e14 ? _e39 : base;
             metal::float3 horizon_end = _e14 ? base : _e39;
-            metal::float3 _e52 = sum_2.sum;
+            metal::float3 _e52 = sum_3.sum;
             metal::float3 _e56 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
             metal::float3 _e57 = ltc_edge_from(reference, horizon_start, _e14 ? crossing_offset_1 : base_offset, horizon_end, _e14 ? base_offset : crossing_offset_1, _e56);
-            sum_2.sum = _e52 - _e57;
+            sum_3.sum = _e52 - _e57;
         } else {
-            sum_2.crossed = true;
-            sum_2.crossing = _e39;
-            sum_2.crossing_offset = crossing_offset_1;
+            sum_3.crossed = true;
+            sum_3.crossing = _e39;
+            sum_3.crossing_offset = crossing_offset_1;
         }
         start = _e14 ? _e8 : _e39;
         start_offset = _e14 ? _e10 : crossing_offset_1;
         end = _e14 ? _e39 : _e9;
         end_offset = _e14 ? crossing_offset_1 : _e11;
     }
-    metal::float3 _e68 = sum_2.sum;
+    metal::float3 _e68 = sum_3.sum;
     metal::float3 _e69 = start;
     metal::float3 _e70 = start_offset;
     metal::float3 _e71 = end;
     metal::float3 _e72 = end_offset;
     metal::float3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
-    sum_2.sum = _e68 - _e73;
+    sum_3.sum = _e68 - _e73;
     return;
 }
 #endif
@@ -2092,10 +2188,10 @@ float ltc_outline_diffuse(
 // The vector form factor of a closed outline in a lobe's space, cut at both horizons, towards the light.
 metal::float3 ltc_outline_lobe(
     LtcOutline outline,
-    LtcOutlineLobe sum_4,
+    LtcOutlineLobe sum_5,
     bool two_sided
 ) {
-    metal::float3 _e9 = ltc_received_vector(sum_4.sum * LTC_OVER_TWO_PI, outline.facing < 0.0, two_sided);
+    metal::float3 _e9 = ltc_received_vector(sum_5.sum * LTC_OVER_TWO_PI, outline.facing < 0.0, two_sided);
     return _e9;
 }
 #endif
@@ -2207,14 +2303,14 @@ metal::float2 ltc_outline_specular(
 ) {
     metal::float2 value = {};
     metal::float3 _e7 = ltc_outline_lobe(outline, sums.first, two_sided);
-    metal::float2 _e8 = ltc_lobe_value(surface, lobes.first, _e7);
+    metal::float2 _e8 = ltc_lobes_part(surface, lobes.first, _e7);
     value = _e8;
 #if LTC_SECOND_LOBE
     if (ltc_use_second_lobe & (lobes.count > 1)) {
         metal::float2 _e15 = value;
         LtcLobe _e17 = ltc_shape_lobe(surface, lobes.second);
         metal::float3 _e19 = ltc_outline_lobe(outline, sums.second, two_sided);
-        metal::float2 _e20 = ltc_lobe_value(surface, _e17, _e19);
+        metal::float2 _e20 = ltc_lobes_part(surface, _e17, _e19);
         value = _e15 + _e20;
     }
 #endif
@@ -2223,7 +2319,7 @@ metal::float2 ltc_outline_specular(
         metal::float2 _e27 = value;
         LtcLobe _e29 = ltc_shape_lobe(surface, lobes.third);
         metal::float3 _e31 = ltc_outline_lobe(outline, sums.third, two_sided);
-        metal::float2 _e32 = ltc_lobe_value(surface, _e29, _e31);
+        metal::float2 _e32 = ltc_lobes_part(surface, _e29, _e31);
         value = _e27 + _e32;
     }
 #endif
@@ -2615,7 +2711,7 @@ metal::float2 ltc_tube_specular(
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         metal::float3 _e10 = ltc_tube_lobe(tube, lobes.first);
-        metal::float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        metal::float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -2628,7 +2724,7 @@ metal::float2 ltc_tube_specular(
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             metal::float3 _e22 = ltc_tube_lobe(tube, _e21);
-            metal::float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            metal::float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = _e19 + _e23;
             int _e25 = index;
             if (_e25 >= lobes.count) {
@@ -2882,7 +2978,7 @@ LtcSeen ltc_lobe_picture(
     LtcLookup _e11 = ltc_rectangle_lookup(surface, lobe, a, b, d, _e9, texels, false);
     metal::float4 _e14 = ltc_texture_fetch(picture, picture_sampler, _e11);
     seen.colour = _e14.xyz;
-    metal::float2 _e17 = ltc_lobe_value(surface, lobe, _e9);
+    metal::float2 _e17 = ltc_lobes_part(surface, lobe, _e9);
     seen.value = _e17;
     LtcSeen _e18 = seen;
     return _e18;
@@ -3716,7 +3812,7 @@ metal::float2 ltc_disk_specular(
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         metal::float3 _e10 = ltc_disk_lobe(disk, lobes.first);
-        metal::float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        metal::float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -3729,7 +3825,7 @@ metal::float2 ltc_disk_specular(
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             metal::float3 _e22 = ltc_disk_lobe(disk, _e21);
-            metal::float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            metal::float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = _e19 + _e23;
             int _e25 = index;
             if (_e25 >= lobes.count) {
@@ -3883,7 +3979,7 @@ metal::float2 ltc_sphere_specular(
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         metal::float3 _e10 = ltc_sphere_lobe(sphere, lobes.first);
-        metal::float2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        metal::float2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -3896,7 +3992,7 @@ metal::float2 ltc_sphere_specular(
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             metal::float3 _e22 = ltc_sphere_lobe(sphere, _e21);
-            metal::float2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            metal::float2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = _e19 + _e23;
             int _e25 = index;
             if (_e25 >= lobes.count) {
@@ -4287,7 +4383,7 @@ LtcShading ltc_shading(
         metal::float2 _e19 = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         LtcAnisotropy _e23 = ltc_anisotropy(_e9, material.grain, _e19.x, _e19.y);
         LtcLobe _e26 = ltc_anisotropic_lobe_from_table(_e9, _e23, table, table_sampler, table_size, layers.anisotropic);
-        LtcLobes _e27 = ltc_lobes_of(_e26);
+        LtcLobes _e27 = ltc_lobes_of(_e9, _e26);
         shading.specular = _e27;
     } else {
 #else
@@ -4677,33 +4773,33 @@ metal::float3 ltc_reflected(
 #if LTC_ENERGY_COMPENSATION
         if (ltc_use_energy_compensation) {
             metal::float3 _e32 = specular_6;
-            LtcLobe _e34 = ltc_lobes_together(shading.specular);
-            metal::float3 _e36 = ltc_energy_compensation(_e34, material.normal_reflectance);
-            specular_6 = _e32 * _e36;
+            LtcLobe _e35 = ltc_lobes_together(shading.surface, shading.specular);
+            metal::float3 _e37 = ltc_energy_compensation(_e35, material.normal_reflectance);
+            specular_6 = _e32 * _e37;
         }
 #endif
-        metal::float3 _e38 = radiance;
-        metal::float3 _e39 = specular_6;
-        radiance = _e38 + _e39;
+        metal::float3 _e39 = radiance;
+        metal::float3 _e40 = specular_6;
+        radiance = _e39 + _e40;
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        metal::float3 _e42 = radiance;
-        metal::float3 _e49 = ltc_sheen_over(_e42, shading.sheen, metal::float3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
-        radiance = _e49;
+        metal::float3 _e43 = radiance;
+        metal::float3 _e50 = ltc_sheen_over(_e43, shading.sheen, metal::float3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
+        radiance = _e50;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        metal::float3 _e51 = radiance;
-        LtcLobe _e53 = ltc_lobes_together(shading.coat);
-        metal::float3 _e59 = ltc_coat_over(_e51, _e53, metal::float3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
-        radiance = _e59;
+        metal::float3 _e52 = radiance;
+        LtcLobe _e55 = ltc_lobes_together(shading.surface, shading.coat);
+        metal::float3 _e61 = ltc_coat_over(_e52, _e55, metal::float3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = _e61;
     }
 #endif
-    metal::float3 _e60 = radiance;
-    return _e60;
+    metal::float3 _e62 = radiance;
+    return _e62;
 }
 
 #if LTC_TEXTURED

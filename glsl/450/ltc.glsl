@@ -20,7 +20,7 @@
 //   Table       two layers of RGBA16F over (roughness, square root of cos view); see ltc_lobe.
 //
 // THREE LEVELS OF USE
-//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(ltc_lobe(...)) from the two
+//   1. ltc_table_coordinates: where to sample; sample in any way you like. Then ltc_lobes_of(surface, ltc_lobe(...)) from the two
 //      texels, or ltc_two_lobes from three, ltc_three_lobes from five.
 //   2. ltc_lobes_from_table, with the texture array and a sampler; then ltc_quad, ltc_disk, ltc_sphere, ltc_tube or the
 //      ltc_polygon functions: a specular over a diffuse part.
@@ -166,7 +166,7 @@ struct LtcShape {
     vec4 entries;
     // The lobe's part of the BRDF's integral of f cos, for F = 1.
     float albedo;
-    // Its part of the integral of f cos (1 - v.h)^5.
+    // For a single lobe the integral of f cos (1 - v.h)^5, for one of a sum its excess, see ltc_lobes_part.
     float fresnel;
 };
 
@@ -621,6 +621,9 @@ const float LTC_OVER_TWO_PI = 0.15915494;
 // Roughness below which the lobe no longer changes: alpha = 0.0004.
 const float LTC_ROUGHNESS_FLOOR = 0.02;
 
+// How far the mean direction of a light turns towards a lobe's axis in ltc_mean_schlick.
+const float LTC_MEAN_SHIFT = 0.5;
+
 // Smallest length by which anything is divided; a reciprocal of it is still finite.
 const float LTC_TINY = 1e-37;
 
@@ -787,20 +790,70 @@ LtcLobe ltc_lobe_from_table(LtcSurface surface, sampler2DArray table, float tabl
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SECOND_LOBE) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
+// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
+// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
+// the surface point closely.
+vec3 ltc_transform_normal(LtcLobe lobe, vec3 v) {
+    return vec3(dot(lobe.normal_x, v), dot(lobe.normal_y, v), dot(lobe.normal_z, v));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_GGX && LTC_SECOND_LOBE)
+// The vector form factor, in a lobe's space, of a light all around the surface: half the sum of the normals of the two
+// horizons.
+vec3 ltc_all_around(LtcSurface surface, LtcLobe lobe) {
+    vec3 _e3 = ltc_transform_normal(lobe, surface.normal);
+    vec3 unit = (_e3 * inversesqrt(max(dot(_e3, _e3), LTC_TINY)));
+    return vec3((0.5 * unit.xy), (0.5 + (0.5 * unit.z)));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// Schlick's factor (1 - v.h)^5 for light from a direction `toward` in the lobe's space, of any length.
+float ltc_schlick(LtcSurface surface, LtcLobe lobe, vec3 toward) {
+    vec3 _e14 = ltc_direction((((lobe.normal_x * toward.x) + (lobe.normal_y * toward.y)) + (lobe.normal_z * toward.z)));
+    float along = ((surface.sin_view * dot(surface.tangent, _e14)) + (surface.cos_view * dot(surface.normal, _e14)));
+    float half_cosine = clamp((0.5 + (0.5 * along)), 0.0, 1.0);
+    float f = (1.0 - (half_cosine * inversesqrt(max(half_cosine, 1e-20))));
+    return ((((f * f) * f) * f) * f);
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_GGX && LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// Schlick's factor at the mean direction of a light, from its vector form factor `toward` in a lobe's space.
+//
+// The vector form factor t averages directions without the lobe's cosine. For a cap around a direction d, so small
+// that |t| is the square of its angle, the mean with the cosine is d cos + |t|/4 z, up to a factor: z turns in by
+// |t|^2/(4 cos) beside t. The cosine is left out, and LTC_MEAN_SHIFT is not the derived factor but the round number that
+// did best of a few on random quads.
+float ltc_mean_schlick(LtcSurface surface, LtcLobe lobe, vec3 toward) {
+    float _e10 = ltc_schlick(surface, lobe, vec3(toward.xy, (toward.z + (LTC_MEAN_SHIFT * dot(toward, toward)))));
+    return _e10;
+}
+#endif
+
 #if LTC_ANISOTROPIC || (LTC_CLEARCOAT && !LTC_SECOND_LOBE) || LTC_GGX
 // A sum of one lobe, whatever the switches say.
-LtcLobes ltc_lobes_of(LtcLobe lobe) {
+LtcLobes ltc_lobes_of(LtcSurface surface, LtcLobe lobe) {
     LtcLobes lobes = LtcLobes(LtcLobe(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), LtcShape(vec4(0.0), 0.0, 0.0), LtcShape(vec4(0.0), 0.0, 0.0), 0);
     lobes.first = lobe;
     lobes.count = 1;
-    LtcLobes _e5 = lobes;
-    return _e5;
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        vec3 _e11 = ltc_all_around(surface, lobe);
+        float _e12 = ltc_mean_schlick(surface, lobe, _e11);
+        lobes.first.fresnel = (lobe.fresnel - (lobe.albedo * _e12));
+    }
+#endif
+    LtcLobes _e15 = lobes;
+    return _e15;
 }
 #endif
 
 #if LTC_SECOND_LOBE
-// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (weight of the
-// first, weight of the second) for F = 1, then the same for Schlick's part.
+// The sum of two lobes that three texels of the table describe: the shapes of the two, as in ltc_lobe, and (albedo of the
+// first, of the second, excess of the first, of the second); see ltc_lobes_part.
 LtcLobes ltc_two_lobes(LtcSurface surface, vec4 first, vec4 second, vec4 weights) {
     LtcLobes lobes = LtcLobes(LtcLobe(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), LtcShape(vec4(0.0), 0.0, 0.0), LtcShape(vec4(0.0), 0.0, 0.0), 0);
     LtcLobe _e7 = ltc_lobe(surface, first, weights.xzxz);
@@ -814,15 +867,15 @@ LtcLobes ltc_two_lobes(LtcSurface surface, vec4 first, vec4 second, vec4 weights
 #endif
 
 #if LTC_THIRD_LOBE
-// The sum of three lobes that five texels of the table describe: their shapes, their weights for F = 1, and those for
-// Schlick's part.
-LtcLobes ltc_three_lobes(LtcSurface surface, vec4 first_1, vec4 second_1, vec4 third, vec4 weights, vec4 schlick) {
+// The sum of three lobes that five texels of the table describe: their shapes, their albedos, and their excesses;
+// see ltc_lobes_part.
+LtcLobes ltc_three_lobes(LtcSurface surface, vec4 first_1, vec4 second_1, vec4 third, vec4 albedos, vec4 excesses) {
     LtcLobes lobes = LtcLobes(LtcLobe(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0)), LtcShape(vec4(0.0), 0.0, 0.0), LtcShape(vec4(0.0), 0.0, 0.0), 0);
-    LtcLobe _e13 = ltc_lobe(surface, first_1, vec4(weights.x, schlick.x, 0.0, 0.0));
+    LtcLobe _e13 = ltc_lobe(surface, first_1, vec4(albedos.x, excesses.x, 0.0, 0.0));
     lobes.first = _e13;
-    LtcShape _e17 = ltc_shape(surface, second_1, weights.y, schlick.y);
+    LtcShape _e17 = ltc_shape(surface, second_1, albedos.y, excesses.y);
     lobes.second = _e17;
-    LtcShape _e21 = ltc_shape(surface, third, weights.z, schlick.z);
+    LtcShape _e21 = ltc_shape(surface, third, albedos.z, excesses.z);
     lobes.third = _e21;
     lobes.count = 3;
     LtcLobes _e24 = lobes;
@@ -839,7 +892,7 @@ LtcLobes ltc_lobes_from_table(LtcSurface surface, sampler2DArray table, float ta
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         LtcLobe _e8 = ltc_lobe_from_table(surface, table, table_size);
-        LtcLobes _e9 = ltc_lobes_of(_e8);
+        LtcLobes _e9 = ltc_lobes_of(surface, _e8);
         lobes = _e9;
     }
 #endif
@@ -857,9 +910,9 @@ LtcLobes ltc_lobes_from_table(LtcSurface surface, sampler2DArray table, float ta
 #endif
 #if LTC_THIRD_LOBE
         if (ltc_use_third_lobe) {
-            vec4 weights = textureLod(table, vec3(_e11, (layer + 3)), 0.0);
-            vec4 schlick = textureLod(table, vec3(_e11, (layer + 4)), 0.0);
-            LtcLobes _e34 = ltc_three_lobes(surface, first, second, next, weights, schlick);
+            vec4 albedos = textureLod(table, vec3(_e11, (layer + 3)), 0.0);
+            vec4 excesses = textureLod(table, vec3(_e11, (layer + 4)), 0.0);
+            LtcLobes _e34 = ltc_three_lobes(surface, first, second, next, albedos, excesses);
             lobes = _e34;
         }
 #endif
@@ -870,29 +923,91 @@ LtcLobes ltc_lobes_from_table(LtcSurface surface, sampler2DArray table, float ta
 }
 #endif
 
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
+// its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
+//
+// A lobe's shape is fitted to the whole BRDF. Schlick's part has another shape, and knows it from
+// the direction: for a small light it is (1 - v.h)^5 of the specular part, v.h taken at the light;
+// for a light that covers the whole lobe it is the table's average. The square of the coverage
+// leads from one to the other.
+vec2 ltc_specular(LtcSurface surface, LtcLobe lobe, float coverage, vec3 toward) {
+    float _e4 = ltc_schlick(surface, lobe, toward);
+    float whole = (coverage * coverage);
+    return (coverage * vec2(lobe.albedo, (((lobe.albedo * _e4) * (1.0 - whole)) + (lobe.fresnel * whole))));
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
+vec2 ltc_lobe_value(LtcSurface surface, LtcLobe lobe, vec3 toward) {
+    vec2 _e9 = ltc_specular(surface, lobe, clamp((toward.z / lobe.share), 0.0, 1.0), toward);
+    return _e9;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
+// The parts (specular, fresnel) of one lobe of a sum from the vector form factor in its space.
+//
+// A single lobe is as in ltc_specular. In a sum Schlick's factor is that of the mean direction of the light. What a light
+// all around gets beyond that, the lobe's `fresnel` holds as an excess of either sign; it comes in with the variance of
+// the factor over the light, for which the square of the coverage stands.
+vec2 ltc_lobes_part(LtcSurface surface, LtcLobe lobe, vec3 toward) {
+    vec2 value = vec2(0.0);
+#if !LTC_SECOND_LOBE
+    if (!(ltc_use_second_lobe)) {
+        vec2 _e8 = ltc_lobe_value(surface, lobe, toward);
+        value = _e8;
+    }
+#endif
+#if LTC_SECOND_LOBE
+    if (ltc_use_second_lobe) {
+        float coverage = clamp((toward.z / lobe.share), 0.0, 1.0);
+        float _e17 = ltc_mean_schlick(surface, lobe, toward);
+        float schlick = ((lobe.albedo * _e17) + (lobe.fresnel * (coverage * coverage)));
+        value = (coverage * vec2(lobe.albedo, clamp(schlick, 0.0, lobe.albedo)));
+    }
+#endif
+    vec2 _e29 = value;
+    return _e29;
+}
+#endif
+
 #if LTC_CLEARCOAT || LTC_GGX
 // The first lobe with the albedo and the Schlick part of all: for functions that ask how much a surface reflects, not where.
-LtcLobe ltc_lobes_together(LtcLobes lobes) {
+LtcLobe ltc_lobes_together(LtcSurface surface, LtcLobes lobes) {
     LtcLobe together = LtcLobe(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0));
+    vec2 sum = vec2(0.0);
     together = lobes.first;
 #if LTC_SECOND_LOBE
-    if ((ltc_use_second_lobe && (lobes.count > 1))) {
-        float _e9 = together.albedo;
-        together.albedo = (_e9 + lobes.second.albedo);
-        float _e14 = together.fresnel;
-        together.fresnel = (_e14 + lobes.second.fresnel);
-    }
-#endif
+    if (ltc_use_second_lobe) {
+        vec3 _e7 = ltc_all_around(surface, lobes.first);
+        vec2 _e8 = ltc_lobes_part(surface, lobes.first, _e7);
+        sum = _e8;
+        if ((lobes.count > 1)) {
+            LtcLobe _e14 = ltc_shape_lobe(surface, lobes.second);
+            vec2 _e15 = sum;
+            vec3 _e16 = ltc_all_around(surface, _e14);
+            vec2 _e17 = ltc_lobes_part(surface, _e14, _e16);
+            sum = (_e15 + _e17);
+        }
 #if LTC_THIRD_LOBE
-    if ((ltc_use_third_lobe && (lobes.count > 2))) {
-        float _e24 = together.albedo;
-        together.albedo = (_e24 + lobes.third.albedo);
-        float _e29 = together.fresnel;
-        together.fresnel = (_e29 + lobes.third.fresnel);
+        if ((ltc_use_third_lobe && (lobes.count > 2))) {
+            LtcLobe _e25 = ltc_shape_lobe(surface, lobes.third);
+            vec2 _e26 = sum;
+            vec3 _e27 = ltc_all_around(surface, _e25);
+            vec2 _e28 = ltc_lobes_part(surface, _e25, _e27);
+            sum = (_e26 + _e28);
+        }
+#endif
+        float _e32 = sum.x;
+        together.albedo = _e32;
+        float _e35 = sum.y;
+        together.fresnel = _e35;
     }
 #endif
-    LtcLobe _e33 = together;
-    return _e33;
+    LtcLobe _e36 = together;
+    return _e36;
 }
 #endif
 
@@ -903,48 +1018,12 @@ vec3 ltc_transform(LtcLobe lobe, vec3 v) {
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_TUBE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_POLYGON) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && LTC_SPHERE) || (LTC_GGX && LTC_TEXTURED) || (LTC_GGX && LTC_TUBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_TUBE) || (LTC_SHEEN && LTC_SPHERE) || (LTC_SHEEN && LTC_TEXTURED) || (LTC_SHEEN && LTC_TUBE)
-// The cross product of two vectors from the surface point, in the lobe's space: what it is the cross
-// product of there. Unlike that of the transformed vectors it keeps the digits of an edge that passes
-// the surface point closely.
-vec3 ltc_transform_normal(LtcLobe lobe, vec3 v) {
-    return vec3(dot(lobe.normal_x, v), dot(lobe.normal_y, v), dot(lobe.normal_z, v));
-}
-#endif
-
 #if LTC_GGX
 // Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
 // `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
 // light of unit radiance (Schlick 1994).
 vec3 ltc_reflectance(vec3 value, vec3 normal_reflectance, vec3 grazing_reflectance) {
     return ((normal_reflectance * (value.y - value.z)) + (grazing_reflectance * value.z));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
-// The parts (specular, fresnel) of a light's value, from the `coverage` of a lobe, the share of
-// its energy that the light covers, and the mean direction `toward` the light in the lobe's space.
-//
-// A lobe's shape is fitted to the whole BRDF. Schlick's part has another shape, and knows it from
-// the direction: for a small light it is (1 - v.h)^5 of the specular part, v.h taken at the light;
-// for a light that covers the whole lobe it is the table's average. The square of the coverage
-// leads from one to the other.
-vec2 ltc_specular(LtcSurface surface, LtcLobe lobe, float coverage, vec3 toward) {
-    vec3 _e15 = ltc_direction((((lobe.normal_x * toward.x) + (lobe.normal_y * toward.y)) + (lobe.normal_z * toward.z)));
-    float along = ((surface.sin_view * dot(surface.tangent, _e15)) + (surface.cos_view * dot(surface.normal, _e15)));
-    float half_cosine = clamp((0.5 + (0.5 * along)), 0.0, 1.0);
-    float f = (1.0 - (half_cosine * inversesqrt(max(half_cosine, 1e-20))));
-    float schlick = ((((f * f) * f) * f) * f);
-    float whole = (coverage * coverage);
-    return (coverage * vec2(lobe.albedo, (((lobe.albedo * schlick) * (1.0 - whole)) + (lobe.fresnel * whole))));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_DISK && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
-// The parts (specular, fresnel) of a lobe from the vector form factor in its space.
-vec2 ltc_lobe_value(LtcSurface surface, LtcLobe lobe, vec3 toward) {
-    vec2 _e9 = ltc_specular(surface, lobe, clamp((toward.z / lobe.share), 0.0, 1.0), toward);
-    return _e9;
 }
 #endif
 
@@ -1558,7 +1637,7 @@ vec2 ltc_quad_specular(LtcSurface surface, LtcQuad quad, LtcLobes lobes) {
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         vec3 _e10 = ltc_quad_lobe(quad, lobes.first);
-        vec2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        vec2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -1571,7 +1650,7 @@ vec2 ltc_quad_specular(LtcSurface surface, LtcQuad quad, LtcLobes lobes) {
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             vec3 _e22 = ltc_quad_lobe(quad, _e21);
-            vec2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            vec2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -1768,17 +1847,17 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
 #if LTC_POLYGON
 // Starts a lobe's part of an outline.
 LtcOutlineLobe ltc_outline_lobe_begin() {
-    LtcOutlineLobe sum_1 = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0));
-    sum_1.crossed = false;
-    sum_1.sum = vec3(0.0);
-    LtcOutlineLobe _e6 = sum_1;
+    LtcOutlineLobe sum_2 = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0));
+    sum_2.crossed = false;
+    sum_2.sum = vec3(0.0);
+    LtcOutlineLobe _e6 = sum_2;
     return _e6;
 }
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
-void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal) {
+void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_3, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal) {
     vec3 start = vec3(0.0);
     vec3 start_offset = vec3(0.0);
     vec3 end = vec3(0.0);
@@ -1806,33 +1885,33 @@ void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_2, LtcLobe lobe, vec3 refere
         float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
         vec3 _e39 = ltc_crossing(above, below, (_e14 ? _e12 : -(_e12)));
         vec3 crossing_offset_1 = (above_offset + ((below_offset - above_offset) * t));
-        bool _e44 = sum_2.crossed;
+        bool _e44 = sum_3.crossed;
         if (_e44) {
-            vec3 base = sum_2.crossing;
-            vec3 base_offset = sum_2.crossing_offset;
+            vec3 base = sum_3.crossing;
+            vec3 base_offset = sum_3.crossing_offset;
             vec3 horizon_start = (_e14 ? _e39 : base);
             vec3 horizon_end = (_e14 ? base : _e39);
-            vec3 _e52 = sum_2.sum;
+            vec3 _e52 = sum_3.sum;
             vec3 _e56 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
             vec3 _e57 = ltc_edge_from(reference, horizon_start, (_e14 ? crossing_offset_1 : base_offset), horizon_end, (_e14 ? base_offset : crossing_offset_1), _e56);
-            sum_2.sum = (_e52 - _e57);
+            sum_3.sum = (_e52 - _e57);
         } else {
-            sum_2.crossed = true;
-            sum_2.crossing = _e39;
-            sum_2.crossing_offset = crossing_offset_1;
+            sum_3.crossed = true;
+            sum_3.crossing = _e39;
+            sum_3.crossing_offset = crossing_offset_1;
         }
         start = (_e14 ? _e8 : _e39);
         start_offset = (_e14 ? _e10 : crossing_offset_1);
         end = (_e14 ? _e39 : _e9);
         end_offset = (_e14 ? crossing_offset_1 : _e11);
     }
-    vec3 _e68 = sum_2.sum;
+    vec3 _e68 = sum_3.sum;
     vec3 _e69 = start;
     vec3 _e70 = start_offset;
     vec3 _e71 = end;
     vec3 _e72 = end_offset;
     vec3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
-    sum_2.sum = (_e68 - _e73);
+    sum_3.sum = (_e68 - _e73);
     return;
 }
 #endif
@@ -1863,8 +1942,8 @@ float ltc_outline_diffuse(LtcOutline outline, bool two_sided) {
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // The vector form factor of a closed outline in a lobe's space, cut at both horizons, towards the light.
-vec3 ltc_outline_lobe(LtcOutline outline, LtcOutlineLobe sum_4, bool two_sided) {
-    vec3 _e9 = ltc_received_vector((sum_4.sum * LTC_OVER_TWO_PI), (outline.facing < 0.0), two_sided);
+vec3 ltc_outline_lobe(LtcOutline outline, LtcOutlineLobe sum_5, bool two_sided) {
+    vec3 _e9 = ltc_received_vector((sum_5.sum * LTC_OVER_TWO_PI), (outline.facing < 0.0), two_sided);
     return _e9;
 }
 #endif
@@ -1964,14 +2043,14 @@ void ltc_outline_lobes_add(inout LtcOutlineLobes sums, LtcSurface surface, LtcOu
 vec2 ltc_outline_specular(LtcSurface surface, LtcOutline outline, LtcOutlineLobes sums, LtcLobes lobes, bool two_sided) {
     vec2 value = vec2(0.0);
     vec3 _e7 = ltc_outline_lobe(outline, sums.first, two_sided);
-    vec2 _e8 = ltc_lobe_value(surface, lobes.first, _e7);
+    vec2 _e8 = ltc_lobes_part(surface, lobes.first, _e7);
     value = _e8;
 #if LTC_SECOND_LOBE
     if ((ltc_use_second_lobe && (lobes.count > 1))) {
         vec2 _e15 = value;
         LtcLobe _e17 = ltc_shape_lobe(surface, lobes.second);
         vec3 _e19 = ltc_outline_lobe(outline, sums.second, two_sided);
-        vec2 _e20 = ltc_lobe_value(surface, _e17, _e19);
+        vec2 _e20 = ltc_lobes_part(surface, _e17, _e19);
         value = (_e15 + _e20);
     }
 #endif
@@ -1980,7 +2059,7 @@ vec2 ltc_outline_specular(LtcSurface surface, LtcOutline outline, LtcOutlineLobe
         vec2 _e27 = value;
         LtcLobe _e29 = ltc_shape_lobe(surface, lobes.third);
         vec3 _e31 = ltc_outline_lobe(outline, sums.third, two_sided);
-        vec2 _e32 = ltc_lobe_value(surface, _e29, _e31);
+        vec2 _e32 = ltc_lobes_part(surface, _e29, _e31);
         value = (_e27 + _e32);
     }
 #endif
@@ -2320,7 +2399,7 @@ vec2 ltc_tube_specular(LtcSurface surface, LtcTube tube, LtcLobes lobes) {
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         vec3 _e10 = ltc_tube_lobe(tube, lobes.first);
-        vec2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        vec2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -2333,7 +2412,7 @@ vec2 ltc_tube_specular(LtcSurface surface, LtcTube tube, LtcLobes lobes) {
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             vec3 _e22 = ltc_tube_lobe(tube, _e21);
-            vec2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            vec2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -2529,7 +2608,7 @@ LtcSeen ltc_lobe_picture(LtcSurface surface, LtcQuad quad, LtcLobe lobe, vec3 a,
     LtcLookup _e11 = ltc_rectangle_lookup(surface, lobe, a, b, d, _e9, texels, false);
     vec4 _e14 = ltc_texture_fetch(picture, _e11);
     seen.colour = _e14.xyz;
-    vec2 _e17 = ltc_lobe_value(surface, lobe, _e9);
+    vec2 _e17 = ltc_lobes_part(surface, lobe, _e9);
     seen.value = _e17;
     LtcSeen _e18 = seen;
     return _e18;
@@ -3225,7 +3304,7 @@ vec2 ltc_disk_specular(LtcSurface surface, LtcDisk disk, LtcLobes lobes) {
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         vec3 _e10 = ltc_disk_lobe(disk, lobes.first);
-        vec2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        vec2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -3238,7 +3317,7 @@ vec2 ltc_disk_specular(LtcSurface surface, LtcDisk disk, LtcLobes lobes) {
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             vec3 _e22 = ltc_disk_lobe(disk, _e21);
-            vec2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            vec2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -3372,7 +3451,7 @@ vec2 ltc_sphere_specular(LtcSurface surface, LtcSphere sphere, LtcLobes lobes) {
 #if !LTC_SECOND_LOBE
     if (!(ltc_use_second_lobe)) {
         vec3 _e10 = ltc_sphere_lobe(sphere, lobes.first);
-        vec2 _e11 = ltc_lobe_value(surface, lobes.first, _e10);
+        vec2 _e11 = ltc_lobes_part(surface, lobes.first, _e10);
         value = _e11;
     }
 #endif
@@ -3385,7 +3464,7 @@ vec2 ltc_sphere_specular(LtcSurface surface, LtcSphere sphere, LtcLobes lobes) {
             LtcLobe _e20 = lobe;
             LtcLobe _e21 = lobe;
             vec3 _e22 = ltc_sphere_lobe(sphere, _e21);
-            vec2 _e23 = ltc_lobe_value(surface, _e20, _e22);
+            vec2 _e23 = ltc_lobes_part(surface, _e20, _e22);
             value = (_e19 + _e23);
             int _e25 = index;
             if ((_e25 >= lobes.count)) {
@@ -3718,7 +3797,7 @@ LtcShading ltc_shading(vec3 position, vec3 normal, vec3 view, LtcMaterial materi
         vec2 _e19 = ltc_anisotropic_alpha(material.roughness, material.anisotropy);
         LtcAnisotropy _e23 = ltc_anisotropy(_e9, material.grain, _e19.x, _e19.y);
         LtcLobe _e26 = ltc_anisotropic_lobe_from_table(_e9, _e23, table, table_size, layers.anisotropic);
-        LtcLobes _e27 = ltc_lobes_of(_e26);
+        LtcLobes _e27 = ltc_lobes_of(_e9, _e26);
         shading.specular = _e27;
     } else {
 #else
@@ -4067,33 +4146,33 @@ vec3 ltc_reflected(LtcShading shading, LtcMaterial material, LtcReceived receive
 #if LTC_ENERGY_COMPENSATION
         if (ltc_use_energy_compensation) {
             vec3 _e32 = specular_6;
-            LtcLobe _e34 = ltc_lobes_together(shading.specular);
-            vec3 _e36 = ltc_energy_compensation(_e34, material.normal_reflectance);
-            specular_6 = (_e32 * _e36);
+            LtcLobe _e35 = ltc_lobes_together(shading.surface, shading.specular);
+            vec3 _e37 = ltc_energy_compensation(_e35, material.normal_reflectance);
+            specular_6 = (_e32 * _e37);
         }
 #endif
-        vec3 _e38 = radiance;
-        vec3 _e39 = specular_6;
-        radiance = (_e38 + _e39);
+        vec3 _e39 = radiance;
+        vec3 _e40 = specular_6;
+        radiance = (_e39 + _e40);
     }
 #endif
 #if LTC_SHEEN
     if (ltc_use_sheen) {
-        vec3 _e42 = radiance;
-        vec3 _e49 = ltc_sheen_over(_e42, shading.sheen, vec3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
-        radiance = _e49;
+        vec3 _e43 = radiance;
+        vec3 _e50 = ltc_sheen_over(_e43, shading.sheen, vec3(received.diffuse, received.sheen, 0.0), material.sheen_colour);
+        radiance = _e50;
     }
 #endif
 #if LTC_CLEARCOAT
     if (ltc_use_clearcoat) {
-        vec3 _e51 = radiance;
-        LtcLobe _e53 = ltc_lobes_together(shading.coat);
-        vec3 _e59 = ltc_coat_over(_e51, _e53, vec3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
-        radiance = _e59;
+        vec3 _e52 = radiance;
+        LtcLobe _e55 = ltc_lobes_together(shading.surface, shading.coat);
+        vec3 _e61 = ltc_coat_over(_e52, _e55, vec3(received.diffuse, received.coat), material.coat_reflectance, material.coat);
+        radiance = _e61;
     }
 #endif
-    vec3 _e60 = radiance;
-    return _e60;
+    vec3 _e62 = radiance;
+    return _e62;
 }
 
 #if LTC_TEXTURED
