@@ -146,6 +146,19 @@ struct LtcLobe {
     normal_y: vec3<f32>,
     /// Third row of the cofactors.
     normal_z: vec3<f32>,
+    /// The same for vectors in the surface's frame (tangent, bitangent, normal), where most entries of most lobes vanish:
+    /// first row of the inverse matrix.
+    frame_x: vec3<f32>,
+    /// Its second row.
+    frame_y: vec3<f32>,
+    /// Its third row.
+    frame_z: vec3<f32>,
+    /// First row of its cofactors.
+    frame_normal_x: vec3<f32>,
+    /// Second row of its cofactors.
+    frame_normal_y: vec3<f32>,
+    /// Third row of its cofactors.
+    frame_normal_z: vec3<f32>,
 }
 
 // ---------------------------------------------------------------------------------------------
@@ -250,6 +263,12 @@ fn ltc_planar_lobe(surface: LtcSurface, m: vec4<f32>, albedo: f32, fresnel: f32)
     lobe.normal_x = surface.tangent * m.w - surface.normal * m.y;
     lobe.normal_y = surface.bitangent * (m.x * m.w - m.y * m.z);
     lobe.normal_z = surface.normal * m.x - surface.tangent * m.z;
+    lobe.frame_x = vec3<f32>(m.x, 0.0, m.z);
+    lobe.frame_y = vec3<f32>(0.0, 1.0, 0.0);
+    lobe.frame_z = vec3<f32>(m.y, 0.0, m.w);
+    lobe.frame_normal_x = vec3<f32>(m.w, 0.0, -m.y);
+    lobe.frame_normal_y = vec3<f32>(0.0, m.x * m.w - m.y * m.z, 0.0);
+    lobe.frame_normal_z = vec3<f32>(-m.z, 0.0, m.x);
     return lobe;
 }
 
@@ -293,7 +312,7 @@ fn ltc_lobes_of(surface: LtcSurface, lobe: LtcLobe) -> LtcLobes {
     lobes.first = lobe;
     lobes.count = 1;
     if (ltc_use_second_lobe) {
-        lobes.first.fresnel = lobe.fresnel - lobe.albedo * ltc_mean_schlick(surface, lobe, ltc_all_around(surface, lobe));
+        lobes.first.fresnel = lobe.fresnel - lobe.albedo * ltc_mean_schlick(surface, lobe, ltc_all_around(lobe));
     }
     return lobes;
 }
@@ -353,14 +372,14 @@ fn ltc_shape_lobe(surface: LtcSurface, shape: LtcShape) -> LtcLobe {
 fn ltc_lobes_together(surface: LtcSurface, lobes: LtcLobes) -> LtcLobe {
     var together = lobes.first;
     if (ltc_use_second_lobe) {
-        var sum = ltc_lobes_part(surface, lobes.first, ltc_all_around(surface, lobes.first));
+        var sum = ltc_lobes_part(surface, lobes.first, ltc_all_around(lobes.first));
         if (lobes.count > 1) {
             let second = ltc_shape_lobe(surface, lobes.second);
-            sum += ltc_lobes_part(surface, second, ltc_all_around(surface, second));
+            sum += ltc_lobes_part(surface, second, ltc_all_around(second));
         }
         if (ltc_use_third_lobe & (lobes.count > 2)) {
             let third = ltc_shape_lobe(surface, lobes.third);
-            sum += ltc_lobes_part(surface, third, ltc_all_around(surface, third));
+            sum += ltc_lobes_part(surface, third, ltc_all_around(third));
         }
         together.albedo = sum.x;
         together.fresnel = sum.y;
@@ -380,6 +399,33 @@ fn ltc_transform_normal(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(dot(lobe.normal_x, v), dot(lobe.normal_y, v), dot(lobe.normal_z, v));
 }
 
+/// `v` in the surface's frame: its parts along tangent, bitangent and normal.
+fn ltc_in_frame(surface: LtcSurface, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(surface.tangent, v), dot(surface.bitangent, v), dot(surface.normal, v));
+}
+
+/// A lobe whose rows are given for the caller's space only, with those for the surface's frame.
+fn ltc_framed_lobe(surface: LtcSurface, lobe: LtcLobe) -> LtcLobe {
+    var framed = lobe;
+    framed.frame_x = ltc_in_frame(surface, lobe.axis_x);
+    framed.frame_y = ltc_in_frame(surface, lobe.axis_y);
+    framed.frame_z = ltc_in_frame(surface, lobe.axis_z);
+    framed.frame_normal_x = ltc_in_frame(surface, lobe.normal_x);
+    framed.frame_normal_y = ltc_in_frame(surface, lobe.normal_y);
+    framed.frame_normal_z = ltc_in_frame(surface, lobe.normal_z);
+    return framed;
+}
+
+/// ltc_transform for a vector in the surface's frame.
+fn ltc_transform_framed(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(lobe.frame_x, v), dot(lobe.frame_y, v), dot(lobe.frame_z, v));
+}
+
+/// ltc_transform_normal for a vector in the surface's frame.
+fn ltc_transform_framed_normal(lobe: LtcLobe, v: vec3<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(lobe.frame_normal_x, v), dot(lobe.frame_normal_y, v), dot(lobe.frame_normal_z, v));
+}
+
 /// Reflected radiance of a specular surface with reflectance `normal_reflectance` (F0) at normal and
 /// `grazing_reflectance` (F90) at grazing incidence, from the value (diffuse, specular, fresnel) of a
 /// light of unit radiance (Schlick 1994).
@@ -389,9 +435,9 @@ fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_refl
 
 /// Schlick's factor (1 - v.h)^5 for light from a direction `toward` in the lobe's space, of any length.
 fn ltc_schlick(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> f32 {
-    let direction = ltc_direction(lobe.normal_x * toward.x + lobe.normal_y * toward.y + lobe.normal_z * toward.z);
+    let direction = ltc_direction(lobe.frame_normal_x * toward.x + lobe.frame_normal_y * toward.y + lobe.frame_normal_z * toward.z);
     // cos^2 of half the angle between view and light: the half vector's cosine, squared.
-    let along = surface.sin_view * dot(surface.tangent, direction) + surface.cos_view * dot(surface.normal, direction);
+    let along = surface.sin_view * direction.x + surface.cos_view * direction.z;
     let half_cosine = clamp(0.5 + 0.5 * along, 0.0, 1.0);
     let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
     return f * f * f * f * f;
@@ -427,8 +473,8 @@ fn ltc_mean_schlick(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> f3
 
 /// The vector form factor, in a lobe's space, of a light all around the surface: half the sum of the normals of the two
 /// horizons.
-fn ltc_all_around(surface: LtcSurface, lobe: LtcLobe) -> vec3<f32> {
-    let horizon = ltc_transform_normal(lobe, surface.normal);
+fn ltc_all_around(lobe: LtcLobe) -> vec3<f32> {
+    let horizon = vec3<f32>(lobe.frame_normal_x.z, lobe.frame_normal_y.z, lobe.frame_normal_z.z);
     let unit = horizon * inverseSqrt(max(dot(horizon, horizon), LTC_TINY));
     return vec3<f32>(0.5 * unit.xy, 0.5 + 0.5 * unit.z);
 }
@@ -486,22 +532,8 @@ fn ltc_edge_normal(a: vec3<f32>, b: vec3<f32>, side: vec3<f32>) -> vec3<f32> {
     return cross(select(a, b, dot(b, b) < dot(a, a)), side);
 }
 
-/// The edge integral of the segment between the directions `a` and `b` (unit vectors): the angle t between
-/// them along the unit normal of their plane, which is 2 pi times the edge's share of the vector form
-/// factor (Lambert; Baum et al. 1989). `normal` is the cross product of the two vectors before they were
-/// divided by their lengths, `scale` the reciprocal of the product of these.
-///
-/// The usual form (t / sin t) (a x b) takes sin t from 1 - (a.b)^2 and a x b from the products. Both cancel,
-/// the first for an edge that subtends nearly 180 degrees, which is every edge of a light that touches
-/// the surface, the second for a short one. Here both come from ltc_edge_normal, which keeps the distance
-/// at which the edge passes. Bounded by pi for any input.
-fn ltc_edge(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>, scale: f32) -> vec3<f32> {
-    let squared = dot(normal, normal);
-    let inverse_length = inverseSqrt(max(squared, LTC_TINY));
-    return normal * (inverse_length * ltc_angle(a, b, squared * inverse_length * scale));
-}
-
-/// ltc_edge for a part of an edge, for which `normal` has the right direction only.
+/// The edge integral of the segment between the directions `a` and `b`: the angle between these unit vectors along
+/// the unit normal of their plane, for which `normal` has the right direction.
 fn ltc_edge_part(a: vec3<f32>, b: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
     let product = cross(a, b - a);
     let squared = dot(product, product);
@@ -523,7 +555,7 @@ fn ltc_angle(a: vec3<f32>, b: vec3<f32>, sine: f32) -> f32 {
 ///
 /// Over a closed polygon the cross products of neighbours add up to those of their offsets from any
 /// fixed vector. Offsets of a distant light are known to full relative precision, see ltc_offset,
-/// so its form factor is too, where a sum of ltc_edge has lost its digits: its terms are of the
+/// so its form factor is too, where a sum over edges has lost its digits: its terms are of the
 /// order of the light's angular size, its sum of that size squared. A unit vector's offset along the
 /// unit reference is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
 /// horizon as well. Exact for polygons of every size.
@@ -562,15 +594,6 @@ fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, target_point: vec3<f32>, 
     return select(far, near, dot(offset, offset) < 0.0625 * dot(origin, origin));
 }
 
-/// ltc_offset for an offset much shorter than `origin`.
-fn ltc_far_offset(origin: vec3<f32>, reference: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
-    let target_point = origin + offset;
-    let inverse_length = inverseSqrt(max(dot(target_point, target_point), LTC_TINY));
-    let length_sum = dot(target_point, target_point) * inverse_length + dot(origin, reference);
-    let length_difference = dot(offset, origin + target_point) / max(length_sum, LTC_TINY);
-    return (offset - reference * length_difference) * inverse_length;
-}
-
 /// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
 /// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
 fn ltc_is_above(v: vec3<f32>, tolerance: f32) -> bool {
@@ -579,7 +602,7 @@ fn ltc_is_above(v: vec3<f32>, tolerance: f32) -> bool {
 
 /// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
 fn ltc_above_tolerance(lobe: LtcLobe) -> f32 {
-    return 1e-12 * min(dot(lobe.axis_z, lobe.axis_z), 1.0);
+    return 1e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0);
 }
 
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
@@ -634,113 +657,247 @@ fn ltc_cap_above(form_factor: vec3<f32>, normal: vec3<f32>) -> f32 {
 
 // ---------------------------------------------------------------------------------------------
 // Quads
+//
+// All in the surface's frame (tangent, bitangent, normal): there heights are z, the horizon is z = 0, and most
+// entries of a lobe's matrix vanish.
 // ---------------------------------------------------------------------------------------------
 
+/// (t / sin t) `scale` for the angle t whose cosine is given, if that is acute; otherwise that of pi - t, see ltc_edge_turn.
+fn ltc_edge_weight(cosine: f32, scale: f32) -> f32 {
+    return scale + scale * ltc_angle_excess(saturate(1.0 - abs(cosine)));
+}
+
+/// What the `weight` from ltc_edge_weight lacks if the angle is obtuse: t / sin t is pi / sin t less that of pi - t, and the
+/// length of `normal` is that sine over the scale. It comes from ltc_edge_normal, which keeps the distance at which an
+/// edge passes the surface point.
+fn ltc_edge_turn(cosine: f32, weight: f32, normal: vec3<f32>) -> f32 {
+    return select(0.0, LTC_PI * ltc_inverse_length(normal) - 2.0 * weight, cosine < 0.0);
+}
+
+/// 1 over the length of `v`.
+fn ltc_inverse_length(v: vec3<f32>) -> f32 {
+    return inverseSqrt(max(dot(v, v), LTC_TINY));
+}
+
+/// Vector form factor, times 2 pi and signed, of a quad, or of a pentagon with `five`; without it `e` is `d`. Each
+/// normal is the cross product of the vertex of its name and the next one, and each edge's integral is the angle t
+/// that it subtends along the unit vector of its normal (Lambert; Baum et al. 1989). Where that angle is acute
+/// it is t / sin t times the normal over the lengths of both vertices. Where it is not, that sine has no digits left
+/// for an edge that subtends nearly 180 degrees, which is every edge of a light that touches the surface: there the
+/// normal's own length takes its place.
+fn ltc_edges(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>, five: bool) -> vec3<f32> {
+    let a_inverse = ltc_inverse_length(a);
+    let b_inverse = ltc_inverse_length(b);
+    let c_inverse = ltc_inverse_length(c);
+    let d_inverse = ltc_inverse_length(d);
+    var e_inverse = d_inverse;
+    var d_cosine = 1.0;
+    var d_weight = 0.0;
+    if (five) {
+        e_inverse = ltc_inverse_length(e);
+        let d_scale = d_inverse * e_inverse;
+        d_cosine = dot(d, e) * d_scale;
+        d_weight = ltc_edge_weight(d_cosine, d_scale);
+    }
+    let a_scale = a_inverse * b_inverse;
+    let b_scale = b_inverse * c_inverse;
+    let c_scale = c_inverse * d_inverse;
+    let e_scale = e_inverse * a_inverse;
+    let a_cosine = dot(a, b) * a_scale;
+    let b_cosine = dot(b, c) * b_scale;
+    let c_cosine = dot(c, d) * c_scale;
+    let e_cosine = dot(e, a) * e_scale;
+    var a_weight = ltc_edge_weight(a_cosine, a_scale);
+    var b_weight = ltc_edge_weight(b_cosine, b_scale);
+    var c_weight = ltc_edge_weight(c_cosine, c_scale);
+    var e_weight = ltc_edge_weight(e_cosine, e_scale);
+    let obtuse = min(min(min(a_cosine, b_cosine), min(c_cosine, d_cosine)), e_cosine) < 0.0;
+    if (obtuse) {
+        a_weight += ltc_edge_turn(a_cosine, a_weight, a_normal);
+        b_weight += ltc_edge_turn(b_cosine, b_weight, b_normal);
+        c_weight += ltc_edge_turn(c_cosine, c_weight, c_normal);
+        d_weight += ltc_edge_turn(d_cosine, d_weight, d_normal);
+        e_weight += ltc_edge_turn(e_cosine, e_weight, e_normal);
+    }
+    return -(a_normal * a_weight + b_normal * b_weight + c_normal * c_weight + d_normal * d_weight + e_normal * e_weight);
+}
+
+/// Where the edge from `above` the plane z = 0 to `below` it meets that plane: `turned`, which is what the plane of the edge
+/// says, or for an edge that is nearly parallel to the horizon what its ends say, if that has more digits: those cancel
+/// where the edge passes the surface point closely. `tilt` is the squared sine between that plane and the horizon.
+fn ltc_flat_crossing(above: vec3<f32>, below: vec3<f32>, tilt: f32, turned: vec2<f32>) -> vec2<f32> {
+    let t = max(above.z, 0.0) / max(above.z - below.z, LTC_TINY);
+    let between = above.xy + (below.xy - above.xy) * t;
+    let squared = dot(between, between);
+    let tilted = (tilt > 1e-3) | (tilt * max(dot(above, above), dot(below, below)) > squared);
+    return select(between * inverseSqrt(max(squared, LTC_TINY)), turned, tilted);
+}
+
+/// Cross product of the ends of a part of an edge, unit vectors, and the cosine between them.
+fn ltc_part(start: vec3<f32>, end: vec3<f32>) -> vec4<f32> {
+    return vec4<f32>(cross(start, end - start), dot(start, end));
+}
+
+/// What a part from ltc_part times its weight lacks if the angle is obtuse; see ltc_edge_turn.
+fn ltc_part_turn(part: vec4<f32>, weight: f32, normal: vec3<f32>, present: bool) -> vec3<f32> {
+    return select(vec3<f32>(0.0), normal * (LTC_PI * ltc_inverse_length(normal)) - part.xyz * (2.0 * weight), present & (part.w < 0.0));
+}
+
+/// The sine of the elevation down to which a vertex counts as above the lobe's horizon. Where that horizon is the
+/// surface's, as it is seen along the normal, rounding would scatter the points of a light cut there to both
+/// sides. The lobe's space squeezes heights by the length of its third axis.
+fn ltc_horizon(lobe: LtcLobe) -> f32 {
+    return -1e-6 * min(ltc_extent(lobe.frame_z), 1.0);
+}
+
 /// Vector form factor, times 2 pi and signed, of a convex pentagon in the lobe's space, cut at the lobe's
-/// horizon z = 0. Each normal has the direction of the cross product of the vertex of its name and the
-/// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ, and
-/// `tolerance` is that of ltc_is_above.
-fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>, five: bool, tolerance: f32) -> vec3<f32> {
-    let a_up = ltc_is_above(a, tolerance);
-    let b_up = ltc_is_above(b, tolerance);
-    let c_up = ltc_is_above(c, tolerance);
-    let d_up = ltc_is_above(d, tolerance);
-    let e_up = ltc_is_above(e, tolerance);
-    if (!(a_up | b_up | c_up | d_up | e_up)) {
+/// horizon z = 0. Each normal is the cross product of the vertex of its name and the
+/// next one. Repeated vertices make it any smaller polygon; `five` tells whether `d` and `e` differ. A vertex counts as
+/// above the horizon if the sine of its elevation is larger than `horizon`, which is ltc_horizon.
+fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, a_normal: vec3<f32>, b_normal: vec3<f32>, c_normal: vec3<f32>, d_normal: vec3<f32>, e_normal: vec3<f32>, five: bool, horizon: f32) -> vec3<f32> {
+    let a_height = a.z * ltc_inverse_length(a);
+    let b_height = b.z * ltc_inverse_length(b);
+    let c_height = c.z * ltc_inverse_length(c);
+    let d_height = d.z * ltc_inverse_length(d);
+    var e_height = d_height;
+    if (five) {
+        e_height = e.z * ltc_inverse_length(e);
+    }
+    let highest = max(max(max(a_height, b_height), max(c_height, d_height)), e_height);
+    if (highest <= horizon) {
         return vec3<f32>(0.0);
     }
-    let a_inverse = inverseSqrt(max(dot(a, a), LTC_TINY));
-    let b_inverse = inverseSqrt(max(dot(b, b), LTC_TINY));
-    let c_inverse = inverseSqrt(max(dot(c, c), LTC_TINY));
-    let d_inverse = inverseSqrt(max(dot(d, d), LTC_TINY));
-    let e_inverse = inverseSqrt(max(dot(e, e), LTC_TINY));
-    let a_unit = a * a_inverse;
-    let b_unit = b * b_inverse;
-    let c_unit = c * c_inverse;
-    let d_unit = d * d_inverse;
-    let e_unit = e * e_inverse;
-    if (a_up & b_up & c_up & d_up & e_up) {
-        var edges = ltc_edge(a_unit, b_unit, a_normal, a_inverse * b_inverse) + ltc_edge(b_unit, c_unit, b_normal, b_inverse * c_inverse)
-            + ltc_edge(c_unit, d_unit, c_normal, c_inverse * d_inverse) + ltc_edge(e_unit, a_unit, e_normal, e_inverse * a_inverse);
-        if (five) {
-            edges += ltc_edge(d_unit, e_unit, d_normal, d_inverse * e_inverse);
-        }
-        return -edges;
+    let lowest = min(min(min(a_height, b_height), min(c_height, d_height)), e_height);
+    if (lowest > horizon) {
+        return ltc_edges(a, b, c, d, e, a_normal, b_normal, c_normal, d_normal, e_normal, five);
     }
-    // A convex polygon leaves the upper side once and comes back once.
+    let a_up = a_height > horizon;
+    let b_up = b_height > horizon;
+    let c_up = c_height > horizon;
+    let d_up = d_height > horizon;
+    let e_up = e_height > horizon;
+    // A convex polygon leaves the upper side once and comes back once, where the planes of the edges say.
     let leave_b = b_up & !c_up;
     let leave_c = c_up & !d_up;
     let leave_d = d_up & !e_up;
     let leave_e = e_up & !a_up;
-    let leave_from = select(select(select(select(a, b, leave_b), c, leave_c), d, leave_d), e, leave_e);
-    let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
-    let leave_normal = select(select(select(select(a_normal, b_normal, leave_b), c_normal, leave_c), d_normal, leave_d), e_normal, leave_e);
     let enter_b = b_up & !a_up;
     let enter_c = c_up & !b_up;
     let enter_d = d_up & !c_up;
     let enter_e = e_up & !d_up;
-    let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
-    let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
+    let leave_normal = select(select(select(select(a_normal, b_normal, leave_b), c_normal, leave_c), d_normal, leave_d), e_normal, leave_e);
     let enter_normal = select(select(select(select(e_normal, a_normal, enter_b), b_normal, enter_c), c_normal, enter_d), d_normal, enter_e);
-    let leave_point = ltc_crossing(leave_from, leave_to, leave_normal);
-    let enter_point = ltc_crossing(enter_to, enter_from, -enter_normal);
-    let leave = leave_point * inverseSqrt(max(dot(leave_point, leave_point), LTC_TINY));
-    let enter = enter_point * inverseSqrt(max(dot(enter_point, enter_point), LTC_TINY));
-    // Each edge runs between what is left of its ends; an edge below is left with one point.
-    let a_end = select(select(enter, leave, e_up), a_unit, a_up);
-    let b_end = select(select(enter, leave, a_up), b_unit, b_up);
-    let c_end = select(select(enter, leave, b_up), c_unit, c_up);
-    let d_end = select(select(enter, leave, c_up), d_unit, d_up);
-    let e_end = select(select(enter, leave, d_up), e_unit, e_up);
-    let a_start = select(enter, a_unit, a_up);
-    let b_start = select(enter, b_unit, b_up);
-    let c_start = select(enter, c_unit, c_up);
-    let d_start = select(enter, d_unit, d_up);
-    let e_start = select(enter, e_unit, e_up);
-    let horizon = ltc_edge_part(leave, enter, ltc_edge_normal(leave_point, enter_point, enter_point - leave_point));
-    return -(ltc_edge_part(a_start, b_end, a_normal) + ltc_edge_part(b_start, c_end, b_normal) + ltc_edge_part(c_start, d_end, c_normal)
-        + ltc_edge_part(d_start, e_end, d_normal) + ltc_edge_part(e_start, a_end, e_normal) + horizon);
+    let leave_squared = dot(leave_normal.xy, leave_normal.xy);
+    let enter_squared = dot(enter_normal.xy, enter_normal.xy);
+    var leave_xy = vec2<f32>(leave_normal.y, -leave_normal.x) * inverseSqrt(max(leave_squared, LTC_TINY));
+    var enter_xy = vec2<f32>(-enter_normal.y, enter_normal.x) * inverseSqrt(max(enter_squared, LTC_TINY));
+    let leave_tilt = leave_squared / max(dot(leave_normal, leave_normal), LTC_TINY);
+    let enter_tilt = enter_squared / max(dot(enter_normal, enter_normal), LTC_TINY);
+    let flat_edge = min(leave_tilt, enter_tilt) <= 1e-3;
+    if (flat_edge) {
+        let leave_from = select(select(select(select(a, b, leave_b), c, leave_c), d, leave_d), e, leave_e);
+        let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
+        let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
+        let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
+        leave_xy = ltc_flat_crossing(leave_from, leave_to, leave_tilt, leave_xy);
+        enter_xy = ltc_flat_crossing(enter_to, enter_from, enter_tilt, enter_xy);
+    }
+    let leave = vec3<f32>(leave_xy, 0.0);
+    let enter = vec3<f32>(enter_xy, 0.0);
+    let a_unit = a * ltc_inverse_length(a);
+    let b_unit = b * ltc_inverse_length(b);
+    let c_unit = c * ltc_inverse_length(c);
+    let d_unit = d * ltc_inverse_length(d);
+    let e_unit = e * ltc_inverse_length(e);
+    // Each edge runs between what is left of its ends.
+    let a_part = ltc_part(select(enter, a_unit, a_up), select(leave, b_unit, b_up));
+    let b_part = ltc_part(select(enter, b_unit, b_up), select(leave, c_unit, c_up));
+    let c_part = ltc_part(select(enter, c_unit, c_up), select(leave, d_unit, d_up));
+    let d_part = ltc_part(select(enter, d_unit, d_up), select(leave, e_unit, e_up));
+    let e_part = ltc_part(select(enter, e_unit, e_up), select(leave, a_unit, a_up));
+    let a_weight = select(0.0, ltc_edge_weight(a_part.w, 1.0), a_up | b_up);
+    let b_weight = select(0.0, ltc_edge_weight(b_part.w, 1.0), b_up | c_up);
+    let c_weight = select(0.0, ltc_edge_weight(c_part.w, 1.0), c_up | d_up);
+    let d_weight = select(0.0, ltc_edge_weight(d_part.w, 1.0), d_up | e_up);
+    let e_weight = select(0.0, ltc_edge_weight(e_part.w, 1.0), e_up | a_up);
+    var sum = a_part.xyz * a_weight + b_part.xyz * b_weight + c_part.xyz * c_weight + d_part.xyz * d_weight + e_part.xyz * e_weight;
+    let obtuse = min(min(min(a_part.w, b_part.w), min(c_part.w, d_part.w)), e_part.w) < 0.0;
+    if (obtuse) {
+        sum += ltc_part_turn(a_part, a_weight, a_normal, a_up | b_up) + ltc_part_turn(b_part, b_weight, b_normal, b_up | c_up)
+            + ltc_part_turn(c_part, c_weight, c_normal, c_up | d_up) + ltc_part_turn(d_part, d_weight, d_normal, d_up | e_up)
+            + ltc_part_turn(e_part, e_weight, e_normal, e_up | a_up);
+    }
+    // The horizon from exit to entry.
+    let along = dot(leave_xy, enter_xy);
+    let area = leave.x * enter.y - leave.y * enter.x;
+    let acute = area * ltc_edge_weight(along, 1.0);
+    let angle = select(acute, select(LTC_PI, -LTC_PI, area < 0.0) - acute, along < 0.0);
+    return -vec3<f32>(sum.xy, sum.z + angle);
 }
 
-/// Vector form factor, times 2 pi and signed, of a pentagon above the horizon from one point `origin`
-/// on or near it and the offsets of its vertices from there, all much shorter than the distance; `five` tells
-/// whether `d` and `e` differ.
-fn ltc_far_pentagon(origin: vec3<f32>, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, five: bool) -> vec3<f32> {
-    let reference = origin * inverseSqrt(max(dot(origin, origin), LTC_TINY));
-    let a_offset = ltc_far_offset(origin, reference, a);
-    let b_offset = ltc_far_offset(origin, reference, b);
-    let c_offset = ltc_far_offset(origin, reference, c);
-    let d_offset = ltc_far_offset(origin, reference, d);
+/// Vector form factor, times 2 pi and signed, of a pentagon above the horizon, from its first vertex `origin` and the
+/// offsets of the others from there, all much shorter than the distance; `five` tells whether `d` and `e` differ.
+///
+/// Over a closed polygon the cross products of neighbouring directions add up to those of their offsets from any of them.
+/// These offsets are known to full relative precision, where the terms of a sum over edges cancel: they are of the
+/// order of the light's angular size, their sum of that size squared. A unit vector's offset along the
+/// unit vector that it is measured from is -offset^2 / 2 exactly; with that the sum stays precise for a light on the
+/// horizon as well.
+fn ltc_far_pentagon(origin: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32>, five: bool) -> vec3<f32> {
+    let squared = dot(origin, origin);
+    let inverse_length = inverseSqrt(max(squared, LTC_TINY));
+    let reference = origin * inverse_length;
+    let distance_to_origin = squared * inverse_length;
+    let b_offset = ltc_far_offset(origin, reference, distance_to_origin, b);
+    let c_offset = ltc_far_offset(origin, reference, distance_to_origin, c);
+    let d_offset = ltc_far_offset(origin, reference, distance_to_origin, d);
     var e_offset = d_offset;
-    var fifth_excess = vec3<f32>(0.0);
+    var fifth_area = vec3<f32>(0.0);
+    var fifth_chord = vec3<f32>(0.0);
+    var fifth_excess = 0.0;
     if (five) {
-        e_offset = ltc_far_offset(origin, reference, e);
-        fifth_excess = ltc_edge_excess(reference + d_offset, e_offset - d_offset);
+        e_offset = ltc_far_offset(origin, reference, distance_to_origin, e);
+        fifth_area = cross(d_offset, e_offset);
+        fifth_chord = e_offset - d_offset;
+        fifth_excess = ltc_angle_excess(0.5 * dot(fifth_chord, fifth_chord));
     }
-    // The sum of ltc_edge_near over the edges, with what is linear in the reference taken out of it.
-    let a_squared = dot(a_offset, a_offset);
     let b_squared = dot(b_offset, b_offset);
     let c_squared = dot(c_offset, c_offset);
     let d_squared = dot(d_offset, d_offset);
     let e_squared = dot(e_offset, e_offset);
-    let area = cross(a_offset, b_offset) + cross(b_offset, c_offset) + cross(c_offset, d_offset) + cross(d_offset, e_offset)
-        + cross(e_offset, a_offset);
-    let across = a_offset * (b_squared - e_squared) + b_offset * (c_squared - a_squared) + c_offset * (d_squared - b_squared)
-        + d_offset * (e_squared - c_squared) + e_offset * (a_squared - d_squared);
-    let excess = ltc_edge_excess(reference + a_offset, b_offset - a_offset) + ltc_edge_excess(reference + b_offset, c_offset - b_offset)
-        + ltc_edge_excess(reference + c_offset, d_offset - c_offset) + fifth_excess
-        + ltc_edge_excess(reference + e_offset, a_offset - e_offset);
-    return -(reference * dot(reference, area) + cross(reference, 0.5 * across) + excess);
+    let b_area = cross(b_offset, c_offset);
+    let c_area = cross(c_offset, d_offset);
+    let b_chord = c_offset - b_offset;
+    let c_chord = d_offset - c_offset;
+    // What each edge's angle exceeds its sine by, relative to it.
+    let a_excess = ltc_angle_excess(0.5 * b_squared);
+    let b_excess = ltc_angle_excess(0.5 * dot(b_chord, b_chord));
+    let c_excess = ltc_angle_excess(0.5 * dot(c_chord, c_chord));
+    let e_excess = ltc_angle_excess(0.5 * e_squared);
+    let across = b_offset * (0.5 * c_squared + a_excess) + c_offset * (0.5 * (d_squared - b_squared))
+        + d_offset * (0.5 * (e_squared - c_squared)) - e_offset * (0.5 * d_squared + e_excess)
+        + b_chord * b_excess + c_chord * c_excess + fifth_chord * fifth_excess;
+    let along = dot(reference, b_area + c_area + fifth_area);
+    return -(reference * along + cross(reference, across) + b_area * b_excess + c_area * c_excess + fifth_area * fifth_excess);
 }
 
-/// A convex quad light, cut at the surface's horizon: what all lobes share of the work on it.
+/// Difference of the directions of `origin + offset` and `origin`, for an offset much shorter than `origin`, with the
+/// relative precision of `offset`. `reference` is the direction of `origin`.
+fn ltc_far_offset(origin: vec3<f32>, reference: vec3<f32>, distance_to_origin: f32, offset: vec3<f32>) -> vec3<f32> {
+    let rise = dot(offset, origin + origin + offset);
+    let squared = max(distance_to_origin * distance_to_origin + rise, LTC_TINY);
+    let inverse_length = inverseSqrt(squared);
+    let length_difference = rise / (squared * inverse_length + distance_to_origin);
+    return (offset - reference * length_difference) * inverse_length;
+}
+
+/// A convex quad light, cut at the surface's horizon: what all lobes share of the work on it, in the surface's frame.
 struct LtcQuad {
-    /// First vertex of the pentagon that is left of the quad, from `base`; where the quad is not cut, the last
-    /// two coincide.
+    /// First vertex of the pentagon that is left of the quad, from the surface point.
     a: vec3<f32>,
     /// Whether the light reaches the surface at all.
     reaches: bool,
-    /// Second vertex.
+    /// Second vertex; of a distant light the offset from the first one, which keeps its digits, like the others.
     b: vec3<f32>,
     /// Whether the horizon cuts the quad.
     clipped: bool,
@@ -752,23 +909,30 @@ struct LtcQuad {
     d: vec3<f32>,
     /// Whether the light shows its emitting side.
     front: bool,
-    /// Fifth vertex.
+    /// Fifth vertex; where the quad is not cut it coincides with the fourth.
     e: vec3<f32>,
     /// Whether the light emits from both sides.
     two_sided: bool,
-    /// Zero for a near light; for a distant one the quad's first vertex from the surface point, so that the vertices
-    /// keep their digits.
-    base: vec3<f32>,
-    /// Cross product of the first and the second vertex, both from the surface point.
+    /// Cross product of the first and the second vertex; of a near light only, like the others.
     a_normal: vec3<f32>,
+    /// That of the fourth and the fifth, the exit and the entry, is vertical: its height.
+    rim: f32,
     /// That of the second and the third.
     b_normal: vec3<f32>,
     /// That of the third and the fourth.
     c_normal: vec3<f32>,
-    /// That of the fourth and the fifth.
-    d_normal: vec3<f32>,
     /// That of the fifth and the first.
     e_normal: vec3<f32>,
+}
+
+/// `v` with its part along the normal.
+fn ltc_with_rise(surface: LtcSurface, v: vec3<f32>) -> vec4<f32> {
+    return vec4<f32>(v, dot(surface.normal, v));
+}
+
+/// What ltc_with_rise gives in the surface's frame.
+fn ltc_rise_in_frame(surface: LtcSurface, v: vec4<f32>) -> vec3<f32> {
+    return vec3<f32>(dot(surface.tangent, v.xyz), dot(surface.bitangent, v.xyz), v.w);
 }
 
 /// Cuts a convex quad light with the vertices `a`, `b`, `c`, `d` at the surface's horizon; see ltc_quad.
@@ -795,32 +959,26 @@ fn ltc_quad_begin(surface: LtcSurface, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
     }
 
     // What is cut at the horizon: the vertices of a near light, the offsets of a distant one's from its
-    // first vertex, with the heights of the vertices over the surface.
+    // first vertex.
     let size_squared = max(max(dot(side_b, side_b), dot(side_c, side_c)), dot(side_d, side_d));
     let distant = size_squared < 0.0625 * dot(p_a, p_a);
-    let p_b = select(b_full * scale, side_b, distant);
-    let p_c = select(c_full * scale, side_c, distant);
-    let p_d = select(d_full * scale, side_d, distant);
-    let a_height = dot(surface.normal, p_a);
-    let base_height = select(0.0, a_height, distant);
-    let heights = vec4<f32>(a_height, base_height + dot(surface.normal, p_b), base_height + dot(surface.normal, p_c),
-        base_height + dot(surface.normal, p_d));
-    let a_up = heights.x > 0.0;
-    let b_up = heights.y > 0.0;
-    let c_up = heights.z > 0.0;
-    let d_up = heights.w > 0.0;
+    let v_a = ltc_with_rise(surface, p_a);
+    var v_b = ltc_with_rise(surface, select(b_full * scale, side_b, distant));
+    var v_c = ltc_with_rise(surface, select(c_full * scale, side_c, distant));
+    var v_d = ltc_with_rise(surface, select(d_full * scale, side_d, distant));
+    let base_height = select(0.0, v_a.w, distant);
+    let a_up = v_a.w > 0.0;
+    let b_up = base_height + v_b.w > 0.0;
+    let c_up = base_height + v_c.w > 0.0;
+    let d_up = base_height + v_d.w > 0.0;
     if (!(a_up | b_up | c_up | d_up)) {
         return quad;
     }
     quad.reaches = true;
     quad.distant = distant;
-    let first = select(p_a, vec3<f32>(0.0), distant);
-    var v_a = first;
-    var v_b = p_b;
-    var v_c = p_c;
-    var v_d = p_d;
-    var v_e = p_d;
     quad.clipped = !(a_up & b_up & c_up & d_up) & !ltc_use_cheap_horizon;
+    var first = v_a;
+    var v_e = v_d;
     if (!ltc_use_cheap_horizon & quad.clipped) {
         // Turn the quad until its last vertex is the last one below; the quad cut at the surface is
         // then the pentagon of the first three vertices, the exit and the entry.
@@ -829,69 +987,69 @@ fn ltc_quad_begin(surface: LtcSurface, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
         let last_c = d_up & !c_up;
         let half_turn = last_b | last_c;
         let turn = last_a | last_c;
-        let half_a = select(first, p_c, half_turn);
-        let half_b = select(p_b, p_d, half_turn);
-        let half_c = select(p_c, first, half_turn);
-        let half_d = select(p_d, p_b, half_turn);
-        let half_heights = select(heights, heights.zwxy, half_turn);
+        let start = select(v_a, vec4<f32>(0.0), distant);
+        let half_a = select(start, v_c, half_turn);
+        let half_b = select(v_b, v_d, half_turn);
+        let half_c = select(v_c, start, half_turn);
+        let half_d = select(v_d, v_b, half_turn);
         let q_a = select(half_a, half_b, turn);
         let q_b = select(half_b, half_c, turn);
         let q_c = select(half_c, half_d, turn);
         let q_d = select(half_d, half_a, turn);
-        let h = select(half_heights, half_heights.yzwx, turn);
-        let up_b = h.y > 0.0;
-        let up_c = h.z > 0.0;
+        let up_b = base_height + q_b.w > 0.0;
+        let up_c = base_height + q_c.w > 0.0;
         let leave_from = select(select(q_a, q_b, up_b), q_c, up_c);
         let leave_to = select(select(q_b, q_c, up_b), q_d, up_c);
-        let leave_high = select(select(h.x, h.y, up_b), h.z, up_c);
-        let leave_low = select(select(h.y, h.z, up_b), h.w, up_c);
-        let leave = leave_from + (leave_to - leave_from) * (leave_high / max(leave_high - leave_low, LTC_TINY));
-        v_a = q_a;
+        let leave_side = leave_to - leave_from;
+        let enter_side = q_d - q_a;
+        let leave = leave_from + leave_side * ((base_height + leave_from.w) / max(-leave_side.w, LTC_TINY));
+        let enter = q_a + enter_side * ((base_height + q_a.w) / max(-enter_side.w, LTC_TINY));
+        first = q_a;
         v_b = select(leave, q_b, up_b);
         v_c = select(leave, q_c, up_c);
         v_d = leave;
-        v_e = q_a + (q_d - q_a) * (h.x / max(h.x - h.w, LTC_TINY));
+        v_e = enter;
+        if (distant) {
+            // The first vertex is another one now.
+            first = v_a + q_a;
+            v_b -= q_a;
+            v_c -= q_a;
+            v_d -= q_a;
+            v_e -= q_a;
+        }
     }
+    quad.a = ltc_rise_in_frame(surface, first);
+    quad.b = ltc_rise_in_frame(surface, v_b);
+    quad.c = ltc_rise_in_frame(surface, v_c);
+    quad.d = ltc_rise_in_frame(surface, v_d);
+    quad.e = quad.d;
 
-    // Cross products of neighbouring vertices, from the edges' own vectors.
-    let base = select(vec3<f32>(0.0), p_a, distant);
-    quad.a = v_a;
-    quad.b = v_b;
-    quad.c = v_c;
-    quad.d = v_d;
-    quad.e = v_e;
-    quad.base = base;
-    quad.a_normal = ltc_edge_normal(base + v_a, base + v_b, v_b - v_a);
-    quad.b_normal = ltc_edge_normal(base + v_b, base + v_c, v_c - v_b);
-    quad.c_normal = ltc_edge_normal(base + v_c, base + v_d, v_d - v_c);
-    // The edge from exit to entry lies on the horizon, whatever rounding says of its normal.
-    quad.d_normal = surface.normal * dot(surface.normal, ltc_edge_normal(base + v_d, base + v_e, v_e - v_d));
-    quad.e_normal = ltc_edge_normal(base + v_e, base + v_a, v_a - v_e);
+    if (!ltc_use_cheap_horizon & quad.clipped) {
+        quad.e = ltc_rise_in_frame(surface, v_e);
+    }
+    if (!distant) {
+        // Cross products of neighbouring vertices, from the edges' own vectors and from the end at the cut, which may be
+        // the one close to the surface point. In the caller's space: where an edge along one of its axes all but touches
+        // that point, a turn of its ends would lose the distance.
+        quad.a_normal = ltc_in_frame(surface, cross(v_b.xyz, v_b.xyz - first.xyz));
+        quad.b_normal = ltc_in_frame(surface, cross(v_c.xyz, v_c.xyz - v_b.xyz));
+        quad.c_normal = ltc_in_frame(surface, cross(v_d.xyz, v_d.xyz - v_c.xyz));
+        quad.e_normal = ltc_in_frame(surface, cross(v_e.xyz, first.xyz - v_e.xyz));
+        if (!ltc_use_cheap_horizon & quad.clipped) {
+            // The edge from exit to entry lies on the horizon, whatever rounding says of its normal.
+            quad.rim = dot(surface.normal, ltc_edge_normal(v_d.xyz, v_e.xyz, v_e.xyz - v_d.xyz));
+        }
+    }
     return quad;
 }
 
-/// Vector form factor, times 2 pi and signed, of what the surface's horizon leaves of a quad, in the
-/// caller's space.
+/// Vector form factor, times 2 pi and signed, of what the surface's horizon leaves of a quad, in the surface's frame.
 fn ltc_quad_form_factor(quad: LtcQuad) -> vec3<f32> {
     if (quad.distant) {
-        return ltc_far_pentagon(quad.base, quad.a, quad.b, quad.c, quad.d, quad.e, quad.clipped);
+        return ltc_far_pentagon(quad.a, quad.b, quad.c, quad.d, quad.e, quad.clipped);
     }
-    let a_inverse = inverseSqrt(max(dot(quad.a, quad.a), LTC_TINY));
-    let b_inverse = inverseSqrt(max(dot(quad.b, quad.b), LTC_TINY));
-    let c_inverse = inverseSqrt(max(dot(quad.c, quad.c), LTC_TINY));
-    let d_inverse = inverseSqrt(max(dot(quad.d, quad.d), LTC_TINY));
-    let e_inverse = inverseSqrt(max(dot(quad.e, quad.e), LTC_TINY));
-    let a_unit = quad.a * a_inverse;
-    let b_unit = quad.b * b_inverse;
-    let c_unit = quad.c * c_inverse;
-    let d_unit = quad.d * d_inverse;
-    let e_unit = quad.e * e_inverse;
-    var edges = ltc_edge(a_unit, b_unit, quad.a_normal, a_inverse * b_inverse) + ltc_edge(b_unit, c_unit, quad.b_normal, b_inverse * c_inverse)
-        + ltc_edge(c_unit, d_unit, quad.c_normal, c_inverse * d_inverse) + ltc_edge(e_unit, a_unit, quad.e_normal, e_inverse * a_inverse);
-    if (!ltc_use_cheap_horizon & quad.clipped) {
-        edges += ltc_edge(d_unit, e_unit, quad.d_normal, d_inverse * e_inverse);
-    }
-    return -edges;
+    return ltc_edges(quad.a, quad.b, quad.c, quad.d, quad.e, quad.a_normal, quad.b_normal, quad.c_normal, vec3<f32>(0.0, 0.0, quad.rim),
+        quad.e_normal, quad.clipped);
 }
 
 /// The form factor of a quad, 0 to 1.
@@ -901,15 +1059,16 @@ fn ltc_quad_diffuse(surface: LtcSurface, quad: LtcQuad) -> f32 {
     }
     let form_factor = ltc_quad_form_factor(quad) * LTC_OVER_TWO_PI;
     if (ltc_use_cheap_horizon) {
-        return ltc_cap_above(select(-form_factor, form_factor, quad.front), surface.normal);
+        return ltc_cap_above(select(-form_factor, form_factor, quad.front), vec3<f32>(0.0, 0.0, 1.0));
     }
-    return ltc_received(dot(surface.normal, form_factor), quad.front, quad.two_sided);
+    return ltc_received(form_factor.z, true, quad.two_sided);
 }
 
 /// The vector form factor of a quad, cut at the surface's horizon, in the caller's space, towards the light.
 fn ltc_quad_toward(surface: LtcSurface, quad: LtcQuad) -> vec3<f32> {
     let form_factor = ltc_quad_form_factor(quad) * LTC_OVER_TWO_PI;
-    return select(form_factor, -form_factor, dot(surface.normal, form_factor) < 0.0);
+    let toward = select(form_factor, -form_factor, form_factor.z < 0.0);
+    return surface.tangent * toward.x + surface.bitangent * toward.y + surface.normal * toward.z;
 }
 
 /// The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
@@ -917,42 +1076,65 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
     if (!quad.reaches) {
         return vec3<f32>(0.0);
     }
-    let a = ltc_transform(lobe, quad.a);
-    let b = ltc_transform(lobe, quad.b);
-    let c = ltc_transform(lobe, quad.c);
-    let d = ltc_transform(lobe, quad.d);
-    let e = ltc_transform(lobe, quad.e);
-    let base = ltc_transform(lobe, quad.base);
-    let lowest = base.z + min(min(min(a.z, b.z), min(c.z, d.z)), e.z);
-    // The lobe's space stretches: there a distant light may be near.
-    let size = max(max(max(dot(a, a), dot(b, b)), max(dot(c, c), dot(d, d))), dot(e, e));
+    let a = ltc_transform_framed(lobe, quad.a);
+    var b = ltc_transform_framed(lobe, quad.b);
+    var c = ltc_transform_framed(lobe, quad.c);
+    var d = ltc_transform_framed(lobe, quad.d);
+    var e = d;
+    if (quad.clipped) {
+        e = ltc_transform_framed(lobe, quad.e);
+    }
+    var a_normal = quad.a_normal;
+    var b_normal = quad.b_normal;
+    var c_normal = quad.c_normal;
+    var e_normal = quad.e_normal;
+    var rim = quad.rim;
+    var distant = false;
+    if (quad.distant) {
+        // The lobe's space stretches: there a distant light may be near.
+        let lowest = a.z + min(min(min(b.z, c.z), min(d.z, e.z)), 0.0);
+        let size = max(max(dot(b, b), dot(c, c)), max(dot(d, d), dot(e, e)));
+        distant = size < 0.0625 * dot(a, a);
+        if (!ltc_use_cheap_horizon) {
+            distant = distant & (lowest > 0.0);
+        }
+        if (!distant) {
+            b += a;
+            c += a;
+            d += a;
+            e += a;
+            a_normal = cross(quad.a, quad.b);
+            b_normal = cross(quad.a + quad.c, quad.c - quad.b);
+            c_normal = cross(quad.a + quad.d, quad.d - quad.c);
+            e_normal = cross(quad.e, quad.a);
+            rim = cross(quad.a + quad.e, quad.e - quad.d).z;
+        }
+    }
     if (ltc_use_cheap_horizon) {
         var moved = quad;
-        moved.distant = quad.distant & (size < 0.0625 * dot(base, base));
-        let offset = select(base, vec3<f32>(0.0), moved.distant);
-        moved.base = base;
-        moved.a = a + offset;
-        moved.b = b + offset;
-        moved.c = c + offset;
-        moved.d = d + offset;
-        moved.e = e + offset;
-        moved.a_normal = ltc_transform_normal(lobe, quad.a_normal);
-        moved.b_normal = ltc_transform_normal(lobe, quad.b_normal);
-        moved.c_normal = ltc_transform_normal(lobe, quad.c_normal);
-        moved.e_normal = ltc_transform_normal(lobe, quad.e_normal);
+        moved.distant = distant;
+        moved.a = a;
+        moved.b = b;
+        moved.c = c;
+        moved.d = d;
+        moved.e = e;
+        moved.a_normal = ltc_transform_framed_normal(lobe, a_normal);
+        moved.b_normal = ltc_transform_framed_normal(lobe, b_normal);
+        moved.c_normal = ltc_transform_framed_normal(lobe, c_normal);
+        moved.e_normal = ltc_transform_framed_normal(lobe, e_normal);
         let winding = ltc_quad_form_factor(moved) * LTC_OVER_TWO_PI;
         let form_factor = select(-winding, winding, quad.front);
         return vec3<f32>(form_factor.xy, ltc_cap_above(form_factor, vec3<f32>(0.0, 0.0, 1.0))) * lobe.share;
     }
     var sum: vec3<f32>;
-    if (quad.distant & (lowest > 0.0) & (size < 0.0625 * dot(base, base))) {
-        sum = ltc_far_pentagon(base, a, b, c, d, e, quad.clipped);
+    if (distant) {
+        sum = ltc_far_pentagon(a, b, c, d, e, quad.clipped);
     } else {
-        sum = ltc_pentagon(base + a, base + b, base + c, base + d, base + e, ltc_transform_normal(lobe, quad.a_normal),
-            ltc_transform_normal(lobe, quad.b_normal), ltc_transform_normal(lobe, quad.c_normal),
-            ltc_transform_normal(lobe, quad.d_normal), ltc_transform_normal(lobe, quad.e_normal), quad.clipped, ltc_above_tolerance(lobe));
+        sum = ltc_pentagon(a, b, c, d, e, ltc_transform_framed_normal(lobe, a_normal), ltc_transform_framed_normal(lobe, b_normal),
+            ltc_transform_framed_normal(lobe, c_normal), ltc_transform_framed_normal(lobe, vec3<f32>(0.0, 0.0, rim)),
+            ltc_transform_framed_normal(lobe, e_normal), quad.clipped, ltc_horizon(lobe));
     }
-    return ltc_received_vector(sum * LTC_OVER_TWO_PI, quad.front, quad.two_sided);
+    return ltc_received_vector(sum * LTC_OVER_TWO_PI, true, quad.two_sided);
 }
 
 /// The parts (specular, fresnel) that a sum of lobes reflects of a quad of unit radiance.
@@ -2067,7 +2249,7 @@ fn ltc_energy_compensation(lobe: LtcLobe, normal_reflectance: vec3<f32>) -> vec3
 //
 // The whole cone's vector form factor points along the axis; its length is the product of the sines of the
 // cone's half-angles along the other two eigenvectors. Of a cone cut by planes the boundary consists of
-// pieces of the planes, which are edges (see ltc_edge), and arcs. Along the arc between the directions u and
+// pieces of the planes, which are edges (see ltc_edges), and arcs. Along the arc between the directions u and
 // v of two points of the rim, whose parameters differ by d,
 //     integral of r x dr / r.r = E(k - h D) (u x v),   k = 1 - u.v,   h = (1 - cos d) / (|r_u| |r_v|),
 // where E(1 - cos w) = w / sin w is applied to a matrix by its eigenvalues. Along the axis w is the angle
@@ -2940,7 +3122,7 @@ fn ltc_anisotropic_lobe(surface: LtcSurface, anisotropy: LtcAnisotropy, shape: v
     lobe.normal_x = m_x * volume;
     lobe.normal_y = m_y * volume;
     lobe.normal_z = m_z * volume;
-    return lobe;
+    return ltc_framed_lobe(surface, lobe);
 }
 
 /// The lobe of an anisotropic surface from the isotropic table alone: 2 samples of layers 0 and 1, as

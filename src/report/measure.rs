@@ -128,7 +128,7 @@ pub fn shade(table: &Table, technique: Technique, quad: &Quad) -> [f64; 2] {
             let [a, b, c, d] = quad.corners.map(|corner| lobe.transform(corner));
             let vertices = [a, b, c, d, d];
             let normals = core::array::from_fn(|i| vertices[i].cross(vertices[(i + 1) % 5]));
-            let form_factor = ltc_pentagon::<f64>(vertices, normals, 1e-12).z / core::f64::consts::TAU;
+            let form_factor = ltc_pentagon::<f64>(vertices, normals, 0.0).z / core::f64::consts::TAU;
             let form_factor = form_factor.max(0.0);
             [amplitude.x * form_factor, amplitude.y * form_factor]
         }

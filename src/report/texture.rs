@@ -6,8 +6,8 @@ use rayon::prelude::*;
 use super::{Quad, Region, random_quads};
 use crate::fit::{Family, Sight};
 use crate::shade::{
-    LtcLobe, LtcLookup, ltc_edge, ltc_quad, ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_surface,
-    ltc_transform,
+    LtcLobe, LtcLookup, ltc_edge_part, ltc_quad, ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup,
+    ltc_surface, ltc_transform,
 };
 use crate::table::Table;
 use crate::texture::{Prefiltered, prefilter};
@@ -118,12 +118,8 @@ fn above(points: &[DVec3]) -> Vec<DVec3> {
 /// Vector form factor of a polygon that is counter-clockwise seen from the origin.
 fn edges(points: &[DVec3]) -> DVec3 {
     let pairs = points.iter().zip(points.iter().cycle().skip(1));
-    let sum: DVec3 = pairs
-        .map(|(a, b)| {
-            let scale = 1.0 / (a.length() * b.length());
-            ltc_edge::<f64>(a.normalize(), b.normalize(), a.cross(*b), scale)
-        })
-        .sum();
+    let sum: DVec3 =
+        pairs.map(|(a, b)| ltc_edge_part::<f64>(a.normalize(), b.normalize(), a.cross(*b))).sum();
     -sum / core::f64::consts::TAU
 }
 

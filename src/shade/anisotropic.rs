@@ -1,7 +1,7 @@
 //! Lobes of surfaces that are rougher along one direction than across it.
 
 use super::real::{Real, Vector};
-use super::surface::{LTC_TINY, LtcLobe, LtcSurface, ltc_direction};
+use super::surface::{LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_framed_lobe};
 
 /// Smallest α along any direction: the square of the roughness' floor.
 pub const LTC_ALPHA_FLOOR: f64 = 0.0004;
@@ -247,7 +247,8 @@ pub fn ltc_anisotropic_lobe<R: Real>(
     let heights = [m_x, m_y, m_z].map(|m| surface.normal.dot(m));
     let squared = heights[0] * heights[0] + heights[1] * heights[1] + heights[2] * heights[2];
     let [albedo, fresnel, ..] = amplitude.into();
-    LtcLobe {
+    let nothing = R::Vec3::new(zero, zero, zero);
+    let lobe = LtcLobe {
         axis_x: m_y.cross(m_z) * scale,
         albedo: (albedo * (one + depth * brighter)).clamp(zero, one),
         axis_y,
@@ -257,5 +258,12 @@ pub fn ltc_anisotropic_lobe<R: Real>(
         normal_x: m_x * volume,
         normal_y: m_y * volume,
         normal_z: m_z * volume,
-    }
+        frame_x: nothing,
+        frame_y: nothing,
+        frame_z: nothing,
+        frame_normal_x: nothing,
+        frame_normal_y: nothing,
+        frame_normal_z: nothing,
+    };
+    ltc_framed_lobe(surface, lobe)
 }

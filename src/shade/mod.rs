@@ -57,10 +57,11 @@ pub use polygon::{
     ltc_polygon_end,
 };
 pub use quad::{
-    LtcQuad, ltc_above_tolerance, ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge, ltc_edge_about,
-    ltc_edge_excess, ltc_edge_near, ltc_edge_normal, ltc_edge_part, ltc_far_offset, ltc_far_pentagon,
-    ltc_is_above, ltc_offset, ltc_pentagon, ltc_quad, ltc_quad_begin, ltc_quad_diffuse, ltc_quad_form_factor,
-    ltc_quad_lobe, ltc_quad_toward,
+    LtcQuad, ltc_above_tolerance, ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge_about, ltc_edge_excess,
+    ltc_edge_near, ltc_edge_normal, ltc_edge_part, ltc_edge_turn, ltc_edge_weight, ltc_edges, ltc_far_offset,
+    ltc_far_pentagon, ltc_flat_crossing, ltc_horizon, ltc_inverse_length, ltc_is_above, ltc_offset,
+    ltc_pentagon, ltc_quad, ltc_quad_begin, ltc_quad_diffuse, ltc_quad_form_factor, ltc_quad_lobe,
+    ltc_quad_toward,
 };
 pub use real::{Real, Vector, angle_excess, hyperbolic_excess};
 pub use several::{
@@ -68,9 +69,10 @@ pub use several::{
     ltc_lobes_together, ltc_lobes_value, ltc_mean_schlick, ltc_three_lobes, ltc_two_lobes,
 };
 pub use surface::{
-    LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_lobe,
-    ltc_lobe_value, ltc_planar_lobe, ltc_received, ltc_received_vector, ltc_reflectance, ltc_schlick,
-    ltc_specular, ltc_surface, ltc_table_coordinates, ltc_transform, ltc_transform_normal,
+    LTC_HEADROOM, LTC_ROUGHNESS_FLOOR, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent,
+    ltc_framed_lobe, ltc_in_frame, ltc_lobe, ltc_lobe_value, ltc_planar_lobe, ltc_received,
+    ltc_received_vector, ltc_reflectance, ltc_schlick, ltc_specular, ltc_surface, ltc_table_coordinates,
+    ltc_transform, ltc_transform_framed, ltc_transform_framed_normal, ltc_transform_normal,
 };
 pub use texture::{
     LTC_LOOKUP, LookupConstants, LtcLookup, ltc_lookup, ltc_lookup_with, ltc_outlined,

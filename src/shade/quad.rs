@@ -3,8 +3,8 @@
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
-    ltc_transform, ltc_transform_normal, unit,
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_in_frame, ltc_received, ltc_received_vector,
+    ltc_transform_framed, ltc_transform_framed_normal, unit,
 };
 
 pub(super) const OVER_TWO_PI: f64 = 0.5 / core::f64::consts::PI;
@@ -19,16 +19,8 @@ pub fn ltc_edge_normal<R: Real>(a: R::Vec3, b: R::Vec3, side: R::Vec3) -> R::Vec
     (if b.dot(b) < a.dot(a) { b } else { a }).cross(side)
 }
 
-/// The edge integral of the segment between two directions: the angle between the unit vectors `a` and `b`
-/// along the unit normal of their plane. `normal` is the cross product of the two vectors before they were
-/// divided by their lengths, `scale` the reciprocal of the product of these.
-pub fn ltc_edge<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3, scale: R) -> R::Vec3 {
-    let squared = normal.dot(normal);
-    let inverse_length = squared.max(R::new(LTC_TINY)).inverse_sqrt();
-    normal * (inverse_length * ltc_angle::<R>(a, b, squared * inverse_length * scale))
-}
-
-/// [`ltc_edge`] for a part of an edge, for which `normal` has the right direction only.
+/// The edge integral of the segment between the directions `a` and `b`: the angle between these unit vectors along
+/// the unit normal of their plane, for which `normal` has the right direction.
 pub fn ltc_edge_part<R: Real>(a: R::Vec3, b: R::Vec3, normal: R::Vec3) -> R::Vec3 {
     let product = a.cross(b - a);
     let squared = product.dot(product);
@@ -102,16 +94,6 @@ pub fn ltc_offset<R: Real>(
     }
 }
 
-/// [`ltc_offset`] for an offset much shorter than `origin`.
-pub fn ltc_far_offset<R: Real>(origin: R::Vec3, reference: R::Vec3, offset: R::Vec3) -> R::Vec3 {
-    let target_point = origin + offset;
-    let square = target_point.dot(target_point);
-    let inverse_length = square.max(R::new(LTC_TINY)).inverse_sqrt();
-    let length_sum = square * inverse_length + origin.dot(reference);
-    let length_difference = offset.dot(origin + target_point) / length_sum.max(R::new(LTC_TINY));
-    (offset - reference * length_difference) * inverse_length
-}
-
 /// Whether `v` lies above the lobe's horizon, or on it but for rounding.
 pub fn ltc_is_above<R: Real>(v: R::Vec3, tolerance: R) -> bool {
     (v.z() > R::new(0.0)) | (v.z() * v.z() < tolerance * v.dot(v))
@@ -119,7 +101,7 @@ pub fn ltc_is_above<R: Real>(v: R::Vec3, tolerance: R) -> bool {
 
 /// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
 pub fn ltc_above_tolerance<R: Real>(lobe: &LtcLobe<R>) -> R {
-    R::new(1e-12) * lobe.axis_z.dot(lobe.axis_z).min(R::new(1.0))
+    R::new(1e-12) * lobe.frame_z.dot(lobe.frame_z).min(R::new(1.0))
 }
 
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where it
@@ -135,83 +117,165 @@ pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) ->
     if cancels & tilted { turned } else { between }
 }
 
-/// Vector form factor, times 2π and signed, of a convex pentagon in the lobe's space, cut at the lobe's
-/// horizon. Each normal has the direction of the cross product of its vertex and the next one.
-pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5], tolerance: R) -> R::Vec3 {
-    let zero: R = R::new(0.0);
-    let up = vertices.map(|v| ltc_is_above::<R>(v, tolerance));
-    if up == [false; 5] {
-        return R::Vec3::new(zero, zero, zero);
+/// (θ / sin θ) · `scale` for the angle θ whose cosine is given, if that is acute; otherwise that of π − θ, see
+/// [`ltc_edge_turn`].
+pub fn ltc_edge_weight<R: Real>(cosine: R, scale: R) -> R {
+    let (zero, one) = (R::new(0.0), R::new(1.0));
+    scale + scale * ltc_angle_excess((one - cosine.abs()).clamp(zero, one))
+}
+
+/// What the `weight` from [`ltc_edge_weight`] lacks if the angle is obtuse; see the include.
+pub fn ltc_edge_turn<R: Real>(cosine: R, weight: R, normal: R::Vec3) -> R {
+    if cosine < R::new(0.0) {
+        R::new(core::f64::consts::PI) * ltc_inverse_length::<R>(normal) - R::new(2.0) * weight
+    } else {
+        R::new(0.0)
     }
-    let inverses = vertices.map(inverse_length::<R>);
-    let units: [R::Vec3; 5] = core::array::from_fn(|i| vertices[i] * inverses[i]);
-    let next = |i: usize| (i + 1) % 5;
-    if up == [true; 5] {
-        let edge =
-            |i: usize| ltc_edge::<R>(units[i], units[next(i)], normals[i], inverses[i] * inverses[next(i)]);
-        return -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4));
-    }
-    // The last edge that leaves the upper side and the last one that comes back, as in the include; a convex
-    // polygon has one of each.
-    let (mut leaving, mut entering) = (0, 4);
-    for i in 1..5 {
-        if up[i] & !up[next(i)] {
-            leaving = i;
-        }
-        if up[i] & !up[i - 1] {
-            entering = i - 1;
-        }
-    }
-    let (from, to) = (vertices[leaving], vertices[next(leaving)]);
-    let leave = ltc_crossing::<R>(from, to, normals[leaving]);
-    let (from, to) = (vertices[entering], vertices[next(entering)]);
-    let enter = ltc_crossing::<R>(to, from, -normals[entering]);
-    let horizon_normal = ltc_edge_normal::<R>(leave, enter, enter - leave);
-    let (leave, enter) = (unit::<R>(leave), unit::<R>(enter));
-    let ends: [R::Vec3; 5] = core::array::from_fn(|i| match (up[i], up[(i + 4) % 5]) {
-        (true, _) => units[i],
-        (false, true) => leave,
-        (false, false) => enter,
-    });
-    let starts: [R::Vec3; 5] = core::array::from_fn(|i| if up[i] { units[i] } else { enter });
-    let horizon = ltc_edge_part::<R>(leave, enter, horizon_normal);
-    let edge = |i: usize| ltc_edge_part::<R>(starts[i], ends[next(i)], normals[i]);
-    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4) + horizon)
 }
 
 /// 1 over the length of `v`.
-fn inverse_length<R: Real>(v: R::Vec3) -> R {
+pub fn ltc_inverse_length<R: Real>(v: R::Vec3) -> R {
     v.dot(v).max(R::new(LTC_TINY)).inverse_sqrt()
 }
 
-/// Vector form factor, times 2π and signed, of a pentagon above the horizon from one point `origin` on
-/// or near it and the offsets of its vertices from there, all much shorter than the distance.
-pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, vertices: [R::Vec3; 5]) -> R::Vec3 {
-    let reference = unit::<R>(origin);
-    let offsets = vertices.map(|v| ltc_far_offset::<R>(origin, reference, v));
-    let squares = offsets.map(|offset| offset.dot(offset));
-    let (next, last) = (|i: usize| (i + 1) % 5, |i: usize| (i + 4) % 5);
-    let product = |i: usize| offsets[i].cross(offsets[next(i)]);
-    let area = product(0) + product(1) + product(2) + product(3) + product(4);
-    let across = |i: usize| offsets[i] * (squares[next(i)] - squares[last(i)]);
-    let across = across(0) + across(1) + across(2) + across(3) + across(4);
-    let excess = |i: usize| ltc_edge_excess::<R>(reference + offsets[i], offsets[next(i)] - offsets[i]);
-    let excess = excess(0) + excess(1) + excess(2) + excess(3) + excess(4);
-    -(reference * reference.dot(area) + reference.cross(across * R::new(0.5)) + excess)
+/// Vector form factor, times 2π and signed, of a pentagon; a quad's last two vertices coincide. Each normal is the
+/// cross product of its vertex and the next one.
+pub fn ltc_edges<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::Vec3 {
+    let inverses = vertices.map(ltc_inverse_length::<R>);
+    let edge = |i: usize| {
+        let next = (i + 1) % 5;
+        let scale = inverses[i] * inverses[next];
+        let cosine = vertices[i].dot(vertices[next]) * scale;
+        let weight = ltc_edge_weight(cosine, scale);
+        normals[i] * (weight + ltc_edge_turn(cosine, weight, normals[i]))
+    };
+    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
 }
 
-/// A convex quad light, cut at the surface's horizon: what all lobes share of the work on it.
+/// Where the edge from `above` the plane z = 0 to `below` it meets that plane: `turned`, which is what the plane of the
+/// edge says, or for an edge that is nearly parallel to the horizon what its ends say, if that has more digits.
+/// `tilt` is the squared sine between that plane and the horizon.
+pub fn ltc_flat_crossing<R: Real>(above: R::Vec3, below: R::Vec3, tilt: R, turned: R::Vec3) -> R::Vec3 {
+    let zero = R::new(0.0);
+    let t = above.z().max(zero) / (above.z() - below.z()).max(R::new(LTC_TINY));
+    let (x, y) = (above.x() + (below.x() - above.x()) * t, above.y() + (below.y() - above.y()) * t);
+    let between = R::Vec3::new(x, y, zero);
+    let farthest = above.dot(above).max(below.dot(below));
+    if (tilt > R::new(1e-3)) | (tilt * farthest > between.dot(between)) { turned } else { unit::<R>(between) }
+}
+
+/// Where the edge with this normal, from `above` to `below`, leaves the upper side.
+fn leaving<R: Real>(normal: R::Vec3, above: R::Vec3, below: R::Vec3) -> R::Vec3 {
+    let turned = R::Vec3::new(normal.y(), -normal.x(), R::new(0.0));
+    let tilt = turned.dot(turned) / normal.dot(normal).max(R::new(LTC_TINY));
+    ltc_flat_crossing::<R>(above, below, tilt, unit::<R>(turned))
+}
+
+/// The sine of the elevation down to which a vertex counts as above the lobe's horizon.
+pub fn ltc_horizon<R: Real>(lobe: &LtcLobe<R>) -> R {
+    R::new(-1e-6) * ltc_extent::<R>(lobe.frame_z).min(R::new(1.0))
+}
+
+/// Vector form factor, times 2π and signed, of a convex pentagon in the lobe's space, cut at the lobe's
+/// horizon. Each normal is the cross product of its vertex and the next one. A vertex counts as above the
+/// horizon if the sine of its elevation is larger than `lowest`, which is [`ltc_horizon`].
+pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5], lowest: R) -> R::Vec3 {
+    let (zero, one, pi): (R, R, R) = (R::new(0.0), R::new(1.0), R::new(core::f64::consts::PI));
+    let up = vertices.map(|v| v.z() * ltc_inverse_length::<R>(v) > lowest);
+    if up == [false; 5] {
+        return R::Vec3::new(zero, zero, zero);
+    }
+    if up == [true; 5] {
+        return ltc_edges::<R>(vertices, normals);
+    }
+    let next = |i: usize| (i + 1) % 5;
+    // The last edge that leaves the upper side and the last one that comes back, as in the include; a convex
+    // polygon has one of each.
+    let (mut last_leaving, mut last_entering) = (0, 4);
+    for i in 1..5 {
+        if up[i] & !up[next(i)] {
+            last_leaving = i;
+        }
+        if up[i] & !up[i - 1] {
+            last_entering = i - 1;
+        }
+    }
+    let leave = leaving::<R>(normals[last_leaving], vertices[last_leaving], vertices[next(last_leaving)]);
+    let enter = leaving::<R>(-normals[last_entering], vertices[next(last_entering)], vertices[last_entering]);
+    let units = vertices.map(unit::<R>);
+    let edge = |i: usize| {
+        let next = next(i);
+        if !(up[i] | up[next]) {
+            return R::Vec3::new(zero, zero, zero);
+        }
+        let start = if up[i] { units[i] } else { enter };
+        let end = if up[next] { units[next] } else { leave };
+        let cosine = start.dot(end);
+        let (product, weight) = (start.cross(end - start), ltc_edge_weight(cosine, one));
+        if cosine < zero {
+            normals[i] * (pi * ltc_inverse_length::<R>(normals[i])) - product * weight
+        } else {
+            product * weight
+        }
+    };
+    let along = leave.dot(enter);
+    let area = leave.x() * enter.y() - leave.y() * enter.x();
+    let acute = area * ltc_edge_weight(along, one);
+    let angle = match (along < zero, area < zero) {
+        (false, _) => acute,
+        (true, true) => -pi - acute,
+        (true, false) => pi - acute,
+    };
+    let horizon = R::Vec3::new(zero, zero, angle);
+    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4) + horizon)
+}
+
+/// Vector form factor, times 2π and signed, of a pentagon above the horizon from its first vertex `origin` and the
+/// offsets of the others from there, all much shorter than the distance.
+pub fn ltc_far_pentagon<R: Real>(origin: R::Vec3, others: [R::Vec3; 4]) -> R::Vec3 {
+    let half: R = R::new(0.5);
+    let squared = origin.dot(origin);
+    let inverse_length = squared.max(R::new(LTC_TINY)).inverse_sqrt();
+    let reference = origin * inverse_length;
+    let distance = squared * inverse_length;
+    let offsets = others.map(|v| ltc_far_offset::<R>(origin, reference, distance, v));
+    let squares = offsets.map(|offset| offset.dot(offset));
+    let areas: [R::Vec3; 3] = core::array::from_fn(|i| offsets[i].cross(offsets[i + 1]));
+    let chords: [R::Vec3; 3] = core::array::from_fn(|i| offsets[i + 1] - offsets[i]);
+    let excesses = chords.map(|chord| ltc_angle_excess(half * chord.dot(chord)));
+    let (first, last) = (ltc_angle_excess(half * squares[0]), ltc_angle_excess(half * squares[3]));
+    let across = offsets[0] * (half * squares[1] + first)
+        + offsets[1] * (half * (squares[2] - squares[0]))
+        + offsets[2] * (half * (squares[3] - squares[1]))
+        - offsets[3] * (half * squares[2] + last)
+        + chords[0] * excesses[0]
+        + chords[1] * excesses[1]
+        + chords[2] * excesses[2];
+    let along = reference.dot(areas[0] + areas[1] + areas[2]);
+    let rest = areas[0] * excesses[0] + areas[1] * excesses[1] + areas[2] * excesses[2];
+    -(reference * along + reference.cross(across) + rest)
+}
+
+/// Difference of the directions of `origin + offset` and `origin`, for an offset much shorter than `origin`, with the
+/// relative precision of `offset`. `reference` is the direction of `origin`.
+pub fn ltc_far_offset<R: Real>(origin: R::Vec3, reference: R::Vec3, distance: R, offset: R::Vec3) -> R::Vec3 {
+    let rise = offset.dot(origin + origin + offset);
+    let squared = (distance * distance + rise).max(R::new(LTC_TINY));
+    let inverse_length = squared.inverse_sqrt();
+    let length_difference = rise / (squared * inverse_length + distance);
+    (offset - reference * length_difference) * inverse_length
+}
+
+/// A convex quad light, cut at the surface's horizon: what all lobes share of the work on it, in the surface's frame.
 #[derive(Clone, Copy, Debug)]
 pub struct LtcQuad<R: Real> {
-    /// The vertices of the pentagon that is left of the quad, from `base`.
+    /// The vertices of the pentagon that is left of the quad, from the surface point; but for the first those of a
+    /// distant light from the first one.
     vertices: [R::Vec3; 5],
     /// Cross products of each vertex and the next one, both from the surface point.
     normals: [R::Vec3; 5],
-    /// Zero for a near light; for a distant one the quad's first vertex from the surface point.
-    base: R::Vec3,
     reaches: bool,
     distant: bool,
-    front: bool,
     two_sided: bool,
 }
 
@@ -233,91 +297,93 @@ pub fn ltc_quad_begin<R: Real>(
     let sides = [far[1], far[2], far[3]].map(|v| (v - far[0]) * scale);
     let p_a = full[0] * scale;
     let front = sides[1].cross(sides[2] - sides[0]).dot(p_a) < zero;
-    let mut quad = LtcQuad {
-        vertices: [nothing; 5],
-        normals: [nothing; 5],
-        base: nothing,
-        reaches: false,
-        distant: false,
-        front,
-        two_sided,
-    };
+    let mut quad =
+        LtcQuad { vertices: [nothing; 5], normals: [nothing; 5], reaches: false, distant: false, two_sided };
     if !(front | two_sided) {
         return quad;
     }
     let size_squared = largest(sides.map(|side| side.dot(side)));
     let distant = size_squared < R::new(0.0625) * p_a.dot(p_a);
-    let first = if distant { nothing } else { p_a };
     let others = if distant { sides } else { [full[1], full[2], full[3]].map(|v| v * scale) };
-    let p = [first, others[0], others[1], others[2]];
     let a_height = surface.normal.dot(p_a);
     let base_height = if distant { a_height } else { zero };
-    let [b_height, c_height, d_height] = others.map(|v| base_height + surface.normal.dot(v));
-    let heights = [a_height, b_height, c_height, d_height];
-    let up = heights.map(|height| height > zero);
+    let first = if distant { nothing } else { p_a };
+    let p = [first, others[0], others[1], others[2]];
+    let rises = p.map(|v| surface.normal.dot(v));
+    let up = rises.map(|rise| base_height + rise > zero);
     if up == [false; 4] {
         return quad;
     }
-    let mut v = [p[0], p[1], p[2], p[3], p[3]];
+    let mut v = [p_a, p[1], p[2], p[3], p[3]];
+    let mut rise = [a_height, rises[1], rises[2], rises[3], rises[3]];
     if up != [true; 4] {
         // Turned until the last vertex is the last one below.
         let turns = (0..3).find(|&i| up[i + 1] & !up[i]).map_or(0, |i| i + 1);
-        let q: [R::Vec3; 4] = core::array::from_fn(|i| p[(i + turns) % 4]);
-        let h: [R; 4] = core::array::from_fn(|i| heights[(i + turns) % 4]);
-        let cross = |high: usize, low: usize| {
-            q[high] + (q[low] - q[high]) * (h[high] / (h[high] - h[low]).max(R::new(LTC_TINY)))
+        let q: [(R::Vec3, R); 4] = core::array::from_fn(|i| (p[(i + turns) % 4], rises[(i + turns) % 4]));
+        let cross = |from: usize, to: usize| {
+            let (side, fall) = (q[to].0 - q[from].0, q[from].1 - q[to].1);
+            let t = (base_height + q[from].1) / fall.max(R::new(LTC_TINY));
+            (q[from].0 + side * t, q[from].1 - fall * t)
         };
-        let (up_b, up_c) = (h[1] > zero, h[2] > zero);
-        let leave = match (up_b, up_c) {
+        let up = q.map(|q| base_height + q.1 > zero);
+        let leave = match (up[1], up[2]) {
             (_, true) => cross(2, 3),
             (true, false) => cross(1, 2),
             (false, false) => cross(0, 1),
         };
-        let kept = |i: usize| if h[i] > zero { q[i] } else { leave };
-        v = [q[0], kept(1), kept(2), leave, cross(0, 3)];
+        let kept = |i: usize| if up[i] { q[i] } else { leave };
+        let cut = [q[0], kept(1), kept(2), leave, cross(0, 3)];
+        let moved = if distant { q[0] } else { (nothing, zero) };
+        v = cut.map(|v| v.0 - moved.0);
+        rise = cut.map(|v| v.1 - moved.1);
+        if distant {
+            (v[0], rise[0]) = (p_a + q[0].0, a_height + q[0].1);
+        }
     }
-    let base = if distant { p_a } else { nothing };
-    let mut normals: [R::Vec3; 5] = core::array::from_fn(|i| {
-        let (a, b) = (v[i], v[(i + 1) % 5]);
-        ltc_edge_normal::<R>(base + a, base + b, b - a)
+    quad.vertices = core::array::from_fn(|i| {
+        R::Vec3::new(surface.tangent.dot(v[i]), surface.bitangent.dot(v[i]), rise[i])
     });
-    normals[3] = surface.normal * surface.normal.dot(normals[3]);
+    quad.normals = if distant {
+        let [a, b, c, d, e] = quad.vertices;
+        [a.cross(b), (a + c).cross(c - b), (a + d).cross(d - c), (a + e).cross(e - d), e.cross(a)]
+    } else {
+        // In the caller's space: where an edge along one of its axes all but touches the surface point, a turn of its
+        // ends would lose the distance. From the end at the cut, which may be the one close to that point.
+        let [a, b, c, d, e] = v;
+        let rim = ltc_edge_normal::<R>(d, e, e - d);
+        [b.cross(b - a), c.cross(c - b), d.cross(d - c), rim, e.cross(a - e)]
+            .map(|normal| ltc_in_frame(surface, normal))
+    };
+    // The edge from exit to entry lies on the horizon, whatever rounding says of its normal.
+    quad.normals[3] = R::Vec3::new(zero, zero, quad.normals[3].z());
     quad.reaches = true;
     quad.distant = distant;
-    quad.vertices = v;
-    quad.normals = normals;
-    quad.base = base;
     quad
 }
 
-/// Vector form factor, times 2π and signed, of what the surface's horizon leaves of a quad, in the caller's space.
+/// Vector form factor, times 2π and signed, of what the surface's horizon leaves of a quad, in the surface's frame.
 pub fn ltc_quad_form_factor<R: Real>(quad: &LtcQuad<R>) -> R::Vec3 {
-    let v = quad.vertices;
+    let [a, b, c, d, e] = quad.vertices;
     if quad.distant {
-        return ltc_far_pentagon::<R>(quad.base, v);
+        ltc_far_pentagon::<R>(a, [b, c, d, e])
+    } else {
+        ltc_edges::<R>(quad.vertices, quad.normals)
     }
-    let inverses = v.map(inverse_length::<R>);
-    let units: [R::Vec3; 5] = core::array::from_fn(|i| v[i] * inverses[i]);
-    let edge = |i: usize| {
-        let next = (i + 1) % 5;
-        ltc_edge::<R>(units[i], units[next], quad.normals[i], inverses[i] * inverses[next])
-    };
-    -(edge(0) + edge(1) + edge(2) + edge(3) + edge(4))
 }
 
 /// The form factor of a quad, 0…1.
-pub fn ltc_quad_diffuse<R: Real>(surface: &LtcSurface<R>, quad: &LtcQuad<R>) -> R {
+pub fn ltc_quad_diffuse<R: Real>(_surface: &LtcSurface<R>, quad: &LtcQuad<R>) -> R {
     if !quad.reaches {
         return R::new(0.0);
     }
-    let sum = surface.normal.dot(ltc_quad_form_factor(quad));
-    ltc_received(sum * R::new(OVER_TWO_PI), quad.front, quad.two_sided)
+    ltc_received(ltc_quad_form_factor(quad).z() * R::new(OVER_TWO_PI), true, quad.two_sided)
 }
 
 /// The vector form factor of a quad, cut at the surface's horizon, in the caller's space, towards the light.
 pub fn ltc_quad_toward<R: Real>(surface: &LtcSurface<R>, quad: &LtcQuad<R>) -> R::Vec3 {
     let form_factor = ltc_quad_form_factor(quad) * R::new(OVER_TWO_PI);
-    if surface.normal.dot(form_factor) < R::new(0.0) { -form_factor } else { form_factor }
+    let toward = if form_factor.z() < R::new(0.0) { -form_factor } else { form_factor };
+    surface.tangent * toward.x() + surface.bitangent * toward.y() + surface.normal * toward.z()
 }
 
 /// The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
@@ -326,18 +392,19 @@ pub fn ltc_quad_lobe<R: Real>(quad: &LtcQuad<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     if !quad.reaches {
         return R::Vec3::new(zero, zero, zero);
     }
-    let v = quad.vertices.map(|v| ltc_transform(lobe, v));
-    let base = ltc_transform(lobe, quad.base);
-    let lowest = base.z() + v.iter().fold(v[0].z(), |low, v| low.min(v.z()));
-    let size = v.iter().fold(zero, |size, v| size.max(v.dot(*v)));
-    let small = size < R::new(0.0625) * base.dot(base);
+    let [a, b, c, d, e] = quad.vertices.map(|v| ltc_transform_framed(lobe, v));
+    let others = [b, c, d, e];
+    let lowest = a.z() + others.iter().fold(zero, |low, v| low.min(v.z()));
+    let size = others.iter().fold(zero, |size, v| size.max(v.dot(*v)));
+    let small = size < R::new(0.0625) * a.dot(a);
     let sum = if quad.distant & (lowest > zero) & small {
-        ltc_far_pentagon::<R>(base, v)
+        ltc_far_pentagon::<R>(a, others)
     } else {
-        let normals = quad.normals.map(|normal| ltc_transform_normal(lobe, normal));
-        ltc_pentagon::<R>(v.map(|v| base + v), normals, ltc_above_tolerance(lobe))
+        let normals = quad.normals.map(|normal| ltc_transform_framed_normal(lobe, normal));
+        let [b, c, d, e] = if quad.distant { others.map(|v| v + a) } else { others };
+        ltc_pentagon::<R>([a, b, c, d, e], normals, ltc_horizon(lobe))
     };
-    ltc_received_vector::<R>(sum * R::new(OVER_TWO_PI), quad.front, quad.two_sided)
+    ltc_received_vector::<R>(sum * R::new(OVER_TWO_PI), true, quad.two_sided)
 }
 
 /// The value (diffuse, specular, fresnel) of a convex quad light; see the include for its domain

@@ -1,9 +1,7 @@
 //! Sums of lobes.
 
 use super::real::{Real, Vector};
-use super::surface::{
-    LTC_TINY, LtcLobe, LtcSurface, ltc_lobe, ltc_lobe_value, ltc_schlick, ltc_transform_normal,
-};
+use super::surface::{LTC_TINY, LtcLobe, LtcSurface, ltc_lobe, ltc_lobe_value, ltc_schlick};
 
 /// How far the mean direction of a light turns towards a lobe's axis, for lack of the cosine in its mean.
 pub const LTC_MEAN_SHIFT: f64 = 0.5;
@@ -84,7 +82,7 @@ impl<R: Real> LobeSum<R> for LtcSpecular<R> {
 
 /// A sum of one lobe.
 pub fn ltc_lobes_of<R: Real>(surface: &LtcSurface<R>, lobe: LtcLobe<R>) -> LtcLobes<R> {
-    let schlick = ltc_mean_schlick(surface, &lobe, ltc_all_around(surface, &lobe));
+    let schlick = ltc_mean_schlick(surface, &lobe, ltc_all_around(&lobe));
     LtcLobes::new(&[LtcLobe { fresnel: lobe.fresnel - lobe.albedo * schlick, ..lobe }])
 }
 
@@ -116,9 +114,9 @@ pub fn ltc_three_lobes<R: Real>(
 
 /// The vector form factor, in a lobe's space, of a light all around the surface: half the sum of the normals of the two
 /// horizons.
-pub fn ltc_all_around<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
+pub fn ltc_all_around<R: Real>(lobe: &LtcLobe<R>) -> R::Vec3 {
     let (half, tiny) = (R::new(0.5), R::new(LTC_TINY));
-    let horizon: R::Vec3 = ltc_transform_normal(lobe, surface.normal);
+    let horizon = R::Vec3::new(lobe.frame_normal_x.z(), lobe.frame_normal_y.z(), lobe.frame_normal_z.z());
     let unit = horizon * horizon.dot(horizon).max(tiny).inverse_sqrt();
     R::Vec3::new(half * unit.x(), half * unit.y(), half + half * unit.z())
 }
@@ -153,7 +151,7 @@ pub fn ltc_lobes_together<R: Real>(surface: &LtcSurface<R>, lobes: &LtcSpecular<
     match lobes {
         LtcSpecular::One(lobe) => *lobe,
         LtcSpecular::Several(lobes) => {
-            let parts = ltc_lobes_value(surface, lobes, |lobe| ltc_all_around(surface, lobe));
+            let parts = ltc_lobes_value(surface, lobes, |lobe| ltc_all_around(lobe));
             let [albedo, fresnel] = parts.into();
             LtcLobe { albedo, fresnel, ..lobes.lobes[0] }
         }

@@ -55,6 +55,18 @@ pub struct LtcLobe<R: Real> {
     pub normal_y: R::Vec3,
     /// Third row of the cofactors.
     pub normal_z: R::Vec3,
+    /// The same for vectors in the surface's frame (tangent, bitangent, normal): first row of the inverse matrix.
+    pub frame_x: R::Vec3,
+    /// Its second row.
+    pub frame_y: R::Vec3,
+    /// Its third row.
+    pub frame_z: R::Vec3,
+    /// First row of its cofactors.
+    pub frame_normal_x: R::Vec3,
+    /// Second row of its cofactors.
+    pub frame_normal_y: R::Vec3,
+    /// Third row of its cofactors.
+    pub frame_normal_z: R::Vec3,
 }
 
 /// Largest absolute component of `v`.
@@ -134,7 +146,7 @@ pub fn ltc_planar_lobe<R: Real>(
     albedo: R,
     fresnel: R,
 ) -> LtcLobe<R> {
-    let half: R = R::new(0.5);
+    let (zero, one, half): (R, R, R) = (R::new(0.0), R::new(1.0), R::new(0.5));
     LtcLobe {
         axis_x: surface.tangent * x + surface.normal * z,
         albedo,
@@ -145,7 +157,41 @@ pub fn ltc_planar_lobe<R: Real>(
         normal_x: surface.tangent * w - surface.normal * y,
         normal_y: surface.bitangent * (x * w - y * z),
         normal_z: surface.normal * x - surface.tangent * z,
+        frame_x: R::Vec3::new(x, zero, z),
+        frame_y: R::Vec3::new(zero, one, zero),
+        frame_z: R::Vec3::new(y, zero, w),
+        frame_normal_x: R::Vec3::new(w, zero, -y),
+        frame_normal_y: R::Vec3::new(zero, x * w - y * z, zero),
+        frame_normal_z: R::Vec3::new(-z, zero, x),
     }
+}
+
+/// `v` in the surface's frame: its parts along tangent, bitangent and normal.
+pub fn ltc_in_frame<R: Real>(surface: &LtcSurface<R>, v: R::Vec3) -> R::Vec3 {
+    R::Vec3::new(surface.tangent.dot(v), surface.bitangent.dot(v), surface.normal.dot(v))
+}
+
+/// A lobe whose rows are given for the caller's space only, with those for the surface's frame.
+pub fn ltc_framed_lobe<R: Real>(surface: &LtcSurface<R>, lobe: LtcLobe<R>) -> LtcLobe<R> {
+    LtcLobe {
+        frame_x: ltc_in_frame(surface, lobe.axis_x),
+        frame_y: ltc_in_frame(surface, lobe.axis_y),
+        frame_z: ltc_in_frame(surface, lobe.axis_z),
+        frame_normal_x: ltc_in_frame(surface, lobe.normal_x),
+        frame_normal_y: ltc_in_frame(surface, lobe.normal_y),
+        frame_normal_z: ltc_in_frame(surface, lobe.normal_z),
+        ..lobe
+    }
+}
+
+/// [`ltc_transform`] for a vector in the surface's frame.
+pub fn ltc_transform_framed<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
+    R::Vec3::new(lobe.frame_x.dot(v), lobe.frame_y.dot(v), lobe.frame_z.dot(v))
+}
+
+/// [`ltc_transform_normal`] for a vector in the surface's frame.
+pub fn ltc_transform_framed_normal<R: Real>(lobe: &LtcLobe<R>, v: R::Vec3) -> R::Vec3 {
+    R::Vec3::new(lobe.frame_normal_x.dot(v), lobe.frame_normal_y.dot(v), lobe.frame_normal_z.dot(v))
 }
 
 /// `v`, a vector from the surface point, in the lobe's space.
@@ -171,10 +217,11 @@ pub fn ltc_reflectance<R: Real>(
 pub fn ltc_schlick<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, toward: R::Vec3) -> R {
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
     let direction = ltc_direction::<R>(
-        lobe.normal_x * toward.x() + lobe.normal_y * toward.y() + lobe.normal_z * toward.z(),
+        lobe.frame_normal_x * toward.x()
+            + lobe.frame_normal_y * toward.y()
+            + lobe.frame_normal_z * toward.z(),
     );
-    let along =
-        surface.sin_view * surface.tangent.dot(direction) + surface.cos_view * surface.normal.dot(direction);
+    let along = surface.sin_view * direction.x() + surface.cos_view * direction.z();
     let half_cosine = (half + half * along).clamp(zero, one);
     let f = one - half_cosine * half_cosine.max(R::new(1e-20)).inverse_sqrt();
     f * f * f * f * f

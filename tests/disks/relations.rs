@@ -35,6 +35,7 @@ where
 /// The lobe that is the clamped cosine itself.
 fn cosine<R: Real>(surface: &LtcSurface<R>) -> LtcLobe<R> {
     let one: R = R::new(1.0);
+    let v = |v: DVec3| R::Vec3::from(v.to_array().map(R::new));
     LtcLobe {
         axis_x: surface.tangent,
         albedo: one,
@@ -45,6 +46,12 @@ fn cosine<R: Real>(surface: &LtcSurface<R>) -> LtcLobe<R> {
         normal_x: surface.tangent,
         normal_y: surface.bitangent,
         normal_z: surface.normal,
+        frame_x: v(DVec3::X),
+        frame_y: v(DVec3::Y),
+        frame_z: v(DVec3::Z),
+        frame_normal_x: v(DVec3::X),
+        frame_normal_y: v(DVec3::Y),
+        frame_normal_z: v(DVec3::Z),
     }
 }
 
