@@ -3,10 +3,12 @@
 //! No such processor is needed: Mesa's driver for AMD's compiles for any of them and reports what came out
 //! (`VK_KHR_pipeline_executable_properties`), but runs nothing.
 
-use std::ffi::{CStr, CString, OsString};
-use std::path::{Path, PathBuf};
+mod driver;
 
-use ash::vk;
+pub use driver::compile_programs;
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 use crate::WGSL_INCLUDE;
 use crate::effects::{Effects, wgsl};
@@ -106,6 +108,7 @@ pub fn sizes(effects: Effects) -> Result<Sizes, TranslateError> {
 
 /// What a compiler says of a kernel. The numbers are estimates of its own: it guesses how often loops run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "report", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cost {
     /// Registers that hold a value for each invocation.
     pub vector_registers: u64,
@@ -183,10 +186,6 @@ impl core::fmt::Display for CostError {
 
 impl core::error::Error for CostError {}
 
-fn refused(what: &'static str) -> impl Fn(vk::Result) -> CostError {
-    move |result| CostError::Refused { what, reason: result.to_string() }
-}
-
 /// Environment in which [`compile`] compiles for a family of processors. A driver reads it when it is
 /// loaded, so a process can compile for one family only; one that the driver does not know ends it.
 ///
@@ -219,6 +218,40 @@ fn manifest(folder: &Path) -> Option<PathBuf> {
     found.into_iter().next()
 }
 
+/// What a program finds at a binding of group 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Binding {
+    /// A storage buffer.
+    Buffer,
+    /// A texture.
+    Texture,
+    /// A sampler.
+    Sampler,
+}
+
+/// A SPIR-V module with the name of its entry point.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct StageModule {
+    /// SPIR-V.
+    pub spirv: Vec<u8>,
+    /// The entry point's name.
+    pub entry_point: String,
+}
+
+/// A program to compile.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Program {
+    /// A compute stage.
+    Compute(StageModule),
+    /// A vertex stage, and the fragment stage that is asked for: it writes one colour.
+    Fragment {
+        /// The vertex stage, which reads no buffers of vertices.
+        vertex: StageModule,
+        /// The fragment stage.
+        fragment: StageModule,
+    },
+}
+
 /// Compiles kernels with the bindings of [`KERNEL`] by the first Vulkan driver that the environment names,
 /// and asks what came out.
 ///
@@ -226,159 +259,13 @@ fn manifest(folder: &Path) -> Option<PathBuf> {
 ///
 /// If there is no such driver, or it does not tell.
 pub fn compile(kernels: &[Vec<u8>]) -> Result<(Compiler, Vec<Cost>), CostError> {
-    compile_kernels(kernels, ENTRY_POINT, 5)
-}
-
-/// [`compile`] for kernels with another entry point, whose bindings are `buffers` storage buffers, a sampled image and a
-/// sampler.
-///
-/// # Errors
-///
-/// As [`compile`].
-pub fn compile_kernels(
-    kernels: &[Vec<u8>],
-    entry_point: &str,
-    buffers: usize,
-) -> Result<(Compiler, Vec<Cost>), CostError> {
-    // SAFETY: the loader is the system's own.
-    let entry = unsafe { ash::Entry::load() }.map_err(|error| CostError::NoLoader(error.to_string()))?;
-    let application = vk::ApplicationInfo::default().api_version(vk::API_VERSION_1_2);
-    let create = vk::InstanceCreateInfo::default().application_info(&application);
-    // SAFETY: what the structures point to outlives the call; the handle is destroyed below.
-    let instance = unsafe { entry.create_instance(&create, None) }.map_err(refused("start"))?;
-    // SAFETY: everything made from the instance is destroyed by then.
-    let result = unsafe { compile_by(&instance, kernels, entry_point, buffers) };
-    // SAFETY: as before.
-    unsafe { instance.destroy_instance(None) };
-    result
-}
-
-/// # Safety
-///
-/// The instance must be alive.
-unsafe fn compile_by(
-    instance: &ash::Instance,
-    kernels: &[Vec<u8>],
-    entry_point: &str,
-    buffers: usize,
-) -> Result<(Compiler, Vec<Cost>), CostError> {
-    // SAFETY, for all calls of this function: handles come from the calls before and are destroyed once,
-    // at the end; what structures point to outlives the calls.
-    unsafe {
-        let devices = instance.enumerate_physical_devices().map_err(refused("list processors"))?;
-        let physical = *devices.first().ok_or(CostError::NoDriver { folders: Vec::new() })?;
-        let mut driver = vk::PhysicalDeviceDriverProperties::default();
-        let mut properties = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
-        instance.get_physical_device_properties2(physical, &mut properties);
-        let text = |name: Result<&CStr, _>| {
-            name.map(|name: &CStr| name.to_string_lossy().into_owned()).unwrap_or_default()
-        };
-        let device = text(properties.properties.device_name_as_c_str());
-        let driver =
-            format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
-        let reports = ash::khr::pipeline_executable_properties::NAME;
-        let extensions =
-            instance.enumerate_device_extension_properties(physical).map_err(refused("list extensions"))?;
-        if !extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(reports)) {
-            return Err(CostError::NoStatistics { device });
-        }
-        let mut enabled = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default()
-            .pipeline_executable_info(true);
-        let priorities = [1.0];
-        let queues = [vk::DeviceQueueCreateInfo::default().queue_priorities(&priorities)];
-        let names = [reports.as_ptr()];
-        let create = vk::DeviceCreateInfo::default()
-            .queue_create_infos(&queues)
-            .enabled_extension_names(&names)
-            .push_next(&mut enabled);
-        let logical = instance.create_device(physical, &create, None).map_err(refused("make a device"))?;
-        let statistics = ash::khr::pipeline_executable_properties::Device::new(instance, &logical);
-        let costs =
-            kernels.iter().map(|kernel| one(&logical, &statistics, kernel, entry_point, buffers)).collect();
-        logical.destroy_device(None);
-        Ok((Compiler { device, driver }, Result::from_iter::<Vec<_>>(costs)?))
-    }
-}
-
-/// # Safety
-///
-/// The device must be alive.
-unsafe fn one(
-    device: &ash::Device,
-    statistics: &ash::khr::pipeline_executable_properties::Device,
-    kernel: &[u8],
-    entry_point: &str,
-    buffers: usize,
-) -> Result<Cost, CostError> {
-    let words: Vec<u32> =
-        kernel.chunks_exact(4).map(|b| u32::from_le_bytes([b[0], b[1], b[2], b[3]])).collect();
-    let binding = |(index, kind): (usize, &vk::DescriptorType)| {
-        vk::DescriptorSetLayoutBinding::default()
-            .binding(index as u32)
-            .descriptor_type(*kind)
-            .descriptor_count(1)
-            .stage_flags(vk::ShaderStageFlags::COMPUTE)
+    let mut bindings = [Binding::Buffer; 7];
+    bindings[5] = Binding::Texture;
+    bindings[6] = Binding::Sampler;
+    let program = |spirv: &Vec<u8>| {
+        Program::Compute(StageModule { spirv: spirv.clone(), entry_point: ENTRY_POINT.to_owned() })
     };
-    let mut kinds = vec![vk::DescriptorType::STORAGE_BUFFER; buffers];
-    kinds.extend([vk::DescriptorType::SAMPLED_IMAGE, vk::DescriptorType::SAMPLER]);
-    let bindings: Vec<_> = kinds.iter().enumerate().map(binding).collect();
-    let name = CString::new(entry_point).unwrap_or_default();
-    // SAFETY: as in `compile_by`; after a failure what was made before goes with the device.
-    unsafe {
-        let create = vk::ShaderModuleCreateInfo::default().code(&words);
-        let module = device.create_shader_module(&create, None).map_err(refused("read SPIR-V"))?;
-        let create = vk::DescriptorSetLayoutCreateInfo::default().bindings(&bindings);
-        let sets =
-            [device.create_descriptor_set_layout(&create, None).map_err(refused("make a set's layout"))?];
-        let create = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
-        let layout = device.create_pipeline_layout(&create, None).map_err(refused("make a layout"))?;
-        let stage = vk::PipelineShaderStageCreateInfo::default()
-            .stage(vk::ShaderStageFlags::COMPUTE)
-            .module(module)
-            .name(&name);
-        let create = vk::ComputePipelineCreateInfo::default()
-            .flags(vk::PipelineCreateFlags::CAPTURE_STATISTICS_KHR)
-            .layout(layout)
-            .stage(stage);
-        let pipelines = device
-            .create_compute_pipelines(vk::PipelineCache::null(), &[create], None)
-            .map_err(|(_, result)| refused("compile")(result))?;
-        let info = vk::PipelineExecutableInfoKHR::default().pipeline(pipelines[0]);
-        let reported =
-            statistics.get_pipeline_executable_statistics(&info).map_err(refused("tell what it compiled"))?;
-        let mut cost = Cost::default();
-        for statistic in &reported {
-            let name = CStr::from_ptr(statistic.name.as_ptr()).to_string_lossy();
-            let value = match statistic.format {
-                vk::PipelineExecutableStatisticFormatKHR::UINT64 => statistic.value.u64,
-                vk::PipelineExecutableStatisticFormatKHR::INT64 => statistic.value.i64.max(0) as u64,
-                _ => continue,
-            };
-            match &*name {
-                "VGPRs" => cost.vector_registers = value,
-                "SGPRs" => cost.scalar_registers = value,
-                "Spilled VGPRs" | "Spilled SGPRs" => cost.spilled_registers += value,
-                "Scratch size" => cost.scratch_bytes = value,
-                "Subgroups per SIMD" => cost.waves = value,
-                "Instructions" => cost.instructions = value,
-                "Latency" => cost.latency = value,
-                "Inverse Throughput" => cost.inverse_throughput = value,
-                "Code size" => cost.code_bytes = value,
-                _ => {}
-            }
-        }
-        device.destroy_pipeline(pipelines[0], None);
-        device.destroy_pipeline_layout(layout, None);
-        device.destroy_descriptor_set_layout(sets[0], None);
-        device.destroy_shader_module(module, None);
-        if cost.instructions == 0 {
-            return Err(CostError::Refused {
-                what: "compile",
-                reason: "it reports no instructions".to_owned(),
-            });
-        }
-        Ok(cost)
-    }
+    compile_programs(&bindings, &kernels.iter().map(program).collect::<Vec<_>>())
 }
 
 #[cfg(test)]

@@ -5,6 +5,8 @@ pub mod compare;
 #[cfg(feature = "cost")]
 pub mod cost;
 #[cfg(feature = "report")]
+pub mod costs;
+#[cfg(feature = "report")]
 pub mod data;
 #[cfg(feature = "report")]
 pub mod errors;

@@ -190,20 +190,33 @@ pub fn spirv() -> Result<Vec<u8>, TranslateError> {
     kernel_spirv(&format!("{WGSL_INCLUDE}\n{WGSL_EVALUATE}"), "evaluate", Effects::standing())
 }
 
-/// What a compute entry point of a WGSL module calls for with the switches of a set of effects, as SPIR-V
+/// What an entry point of a WGSL module calls for with the switches of a set of effects, as SPIR-V
 /// 1.3, without checks that the include has no need for.
 ///
 /// # Errors
 ///
-/// If `source` is not valid WGSL, has no compute entry point of that name, or has overrides other than the
+/// If `source` is not valid WGSL, has no entry point of that name, or has overrides other than the
 /// include's.
 pub fn kernel_spirv(source: &str, entry_point: &str, effects: Effects) -> Result<Vec<u8>, TranslateError> {
+    let (module, info) = kernel_module(source, entry_point, effects)?;
+    spirv_module(&module, &info, Some(entry_point))
+}
+
+/// What an entry point of a WGSL module calls for with the switches of a set of effects.
+pub(crate) fn kernel_module(
+    source: &str,
+    entry_point: &str,
+    effects: Effects,
+) -> Result<(Module, ModuleInfo), TranslateError> {
     let (mut module, _) = parse(source)?;
     module.entry_points.retain(|known| known.name == entry_point);
+    if module.entry_points.is_empty() {
+        return Err(failed("no kernel", format!("there is no entry point {entry_point}")));
+    }
     let switches = effects.switches().collect();
     let module = select(&module, &[], Switches::Decided(&switches))?;
     let info = validate(&module)?;
-    spirv_module(&module, &info, Some(entry_point))
+    Ok((module, info))
 }
 
 fn spirv_module(
@@ -220,7 +233,11 @@ fn spirv_module(
         ..Default::default()
     };
     let pipeline = entry_point.map(|name| spv::PipelineOptions {
-        shader_stage: ShaderStage::Compute,
+        shader_stage: module
+            .entry_points
+            .iter()
+            .find(|known| known.name == name)
+            .map_or(ShaderStage::Compute, |known| known.stage),
         entry_point: name.to_owned(),
     });
     let words = spv::write_vec(module, info, &options, pipeline.as_ref())

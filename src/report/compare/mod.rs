@@ -33,7 +33,8 @@ pub use published::{
 };
 pub use reference::{Level, Truth};
 pub use representative::{Representative, representative_value};
-pub use run::{CompareError, ENTRY_POINT, KERNEL, level, run, run_inputs, source, spirv, wgsl};
+pub(crate) use run::table;
+pub use run::{CompareError, level, run, run_inputs, source, wgsl};
 pub use samples::{Samples, samples_seed, samples_value};
 
 /// The table of [`crate::fit::bake_published`], in the layout of the published tables.

@@ -6,18 +6,9 @@ use wgpu::util::DeviceExt;
 use super::{Input, published_table};
 use crate::device::{Device, DeviceError, Program};
 use crate::effects::{self, Effect, Effects, Quality};
+use crate::report::costs::{COMPUTE, MEASURE};
 use crate::report::measure::Quad;
 use crate::table::Table;
-use crate::translate::{self, TranslateError};
-
-/// A kernel that evaluates one quad on one surface in each invocation by the function `method_value` of a method's text, to
-/// which it is appended.
-///
-/// Bindings of group 0: surfaces, quads, results, the table and its sampler.
-pub const KERNEL: &str = include_str!("../../../wgsl/compare/kernel.wgsl");
-
-/// The entry point of [`KERNEL`].
-pub const ENTRY_POINT: &str = "compare_quads";
 
 /// The text of Monte Carlo integration behind the constants of a variant.
 macro_rules! samples {
@@ -70,15 +61,15 @@ pub fn level(name: &str) -> Option<Effects> {
     Some(name.parse::<Quality>().ok()?.of(plain))
 }
 
-/// The whole module of a method: the include for levels, the method and [`KERNEL`].
+/// The whole module of a method: the include for levels, the method and [`MEASURE`].
 pub fn source(name: &str) -> Option<String> {
     let text = wgsl(name)?;
     let include = level(name).map(|effects| effects::wgsl(effects).expect("the include has its levels"));
-    Some(format!("{}\n{text}\n{KERNEL}", include.unwrap_or_default()))
+    Some(format!("{}\n{text}\n{MEASURE}", include.unwrap_or_default()))
 }
 
 /// The table that a method reads, or any where it reads none.
-fn table(name: &str) -> Table {
+pub(crate) fn table(name: &str) -> Table {
     match level(name).map(Effects::layers) {
         Some(layers) if !layers.is_empty() => Table::default().completed(&layers).only(&layers),
         _ => published_table(),
@@ -91,27 +82,12 @@ pub enum CompareError {
     /// There is no such method in WGSL.
     #[error("no method named {0:?} is there in WGSL")]
     UnknownMethod(String),
-    /// Its text is no valid WGSL.
-    #[error(transparent)]
-    Translate(#[from] TranslateError),
     /// The device refused.
     #[error(transparent)]
     Device(#[from] DeviceError),
 }
 
-/// The whole module of a method as SPIR-V, without checks that it has no need for: what
-/// [`cost::compile_kernels`](crate::report::cost::compile_kernels) takes, with [`ENTRY_POINT`] and three buffers.
-///
-/// # Errors
-///
-/// If there is no such method.
-pub fn spirv(name: &str) -> Result<Vec<u8>, CompareError> {
-    let source = source(name).ok_or_else(|| CompareError::UnknownMethod(name.to_owned()))?;
-    let effects = level(name).unwrap_or(Effects::NONE);
-    Ok(translate::kernel_spirv(&source, ENTRY_POINT, effects)?)
-}
-
-/// A surface as [`KERNEL`] reads it.
+/// A surface as [`MEASURE`] reads it.
 #[derive(Clone, Copy, Pod, Zeroable)]
 #[repr(C)]
 struct CompareSurface {
@@ -143,8 +119,9 @@ pub fn run_inputs(device: &Device, name: &str, inputs: &[Input]) -> Result<Vec<[
     if inputs.is_empty() {
         return Ok(Vec::new());
     }
-    let surfaces: Vec<CompareSurface> = inputs
-        .iter()
+    // The kernel takes a power of two of them.
+    let padded = || inputs.iter().chain(std::iter::repeat(&inputs[0])).take(inputs.len().next_power_of_two());
+    let surfaces: Vec<CompareSurface> = padded()
         .map(|input| CompareSurface {
             position: input.position.to_array(),
             roughness: input.roughness,
@@ -155,7 +132,7 @@ pub fn run_inputs(device: &Device, name: &str, inputs: &[Input]) -> Result<Vec<[
         })
         .collect();
     let corners: Vec<[f32; 4]> =
-        inputs.iter().flat_map(|input| input.corners).map(|corner| corner.extend(0.0).to_array()).collect();
+        padded().flat_map(|input| input.corners).map(|corner| corner.extend(0.0).to_array()).collect();
     let storage = |contents: &[u8]| {
         device.device().create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: None,
@@ -180,7 +157,7 @@ pub fn run_inputs(device: &Device, name: &str, inputs: &[Input]) -> Result<Vec<[
         wgpu::BindingResource::Sampler(&sampler),
     ];
     let groups = (inputs.len() as u32).div_ceil(64);
-    let bytes = device.compute(&Program::wgsl(source), ENTRY_POINT, &resources, [groups, 1], &results)?;
+    let bytes = device.compute(&Program::wgsl(source), COMPUTE, &resources, [groups, 1], &results)?;
     let values: Vec<[f32; 4]> = bytemuck::pod_collect_to_vec(&bytes);
     Ok(values.into_iter().map(|[diffuse, specular, fresnel, _]| [diffuse, specular, fresnel]).collect())
 }
