@@ -10,6 +10,7 @@ mod prefilter;
 mod progress;
 mod quality;
 mod render;
+mod report;
 mod select;
 
 use clap::{Parser, Subcommand};
@@ -40,6 +41,8 @@ enum Command {
     Select(select::SelectArguments),
     /// Tell what sets of effects cost, as compiled for AMD's processors; none needs to be there.
     Cost(cost::CostArguments),
+    /// Measure what accuracy costs in time: every quality level and what else there is, as a page, Markdown and tables.
+    Report(report::ReportArguments),
     /// Evaluate surfaces and lights given as JSON Lines.
     #[command(long_about = eval::HELP)]
     Eval(eval::EvalArguments),
@@ -59,6 +62,7 @@ fn main() {
         Command::Effects(arguments) => effects::effects(&arguments),
         Command::Select(arguments) => select::select(&arguments),
         Command::Cost(arguments) => cost::cost(&arguments),
+        Command::Report(arguments) => report::report(&arguments),
         Command::Eval(arguments) => eval::eval(&arguments),
     };
     if let Err(error) = result {

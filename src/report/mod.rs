@@ -1,4 +1,4 @@
-//! What a table is worth: its error against ground truth; and what a set of effects costs.
+//! What methods are worth: their errors against ground truth, their costs, and the report that shows both.
 
 #[cfg(feature = "report")]
 pub mod compare;
@@ -10,6 +10,8 @@ pub mod costs;
 pub mod data;
 #[cfg(feature = "report")]
 pub mod errors;
+#[cfg(feature = "report")]
+mod gather;
 #[cfg(feature = "bake")]
 mod measure;
 #[cfg(feature = "report")]
@@ -21,6 +23,8 @@ mod texture;
 
 #[cfg(feature = "bake")]
 pub use measure::{Accuracy, Quad, REGIONS, Region, Technique, accuracy, random_quads, shade};
+#[cfg(feature = "report")]
+pub use gather::{Gathered, ReportError, Settings, gather};
 #[cfg(feature = "report")]
 pub use method::Method;
 #[cfg(feature = "bake")]

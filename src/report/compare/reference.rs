@@ -1,6 +1,6 @@
 //! What comparators are compared with.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 use super::Input;
 use crate::brdf::Ggx;
@@ -8,7 +8,7 @@ use crate::effects::{Effect, Effects, Quality};
 use crate::report::data::{Kind, MethodInfo};
 use crate::report::measure::Quad;
 use crate::report::method::Method;
-use crate::shade::{LTC_ROUGHNESS_FLOOR, ltc_quad, ltc_surface};
+use crate::shade::{LTC_ROUGHNESS_FLOOR, LtcSpecular, LtcSurface, Real, ltc_quad, ltc_surface};
 use crate::table::Table;
 use crate::truth;
 
@@ -27,6 +27,22 @@ impl Level {
         let effects = quality.of(plain);
         let table = Table::default().completed(&effects.layers());
         Self { quality, effects, table }
+    }
+
+    /// Which level it is.
+    pub fn quality(&self) -> Quality {
+        self.quality
+    }
+
+    /// The lobes of a surface.
+    pub fn lobes<R: Real>(&self, surface: &LtcSurface<R>) -> LtcSpecular<R> {
+        self.table.specular(surface, self.effects)
+    }
+
+    /// [`Method::value`] in double precision.
+    pub fn precise_value(&self, quad: &Quad) -> [f64; 3] {
+        let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, quad.view, quad.roughness);
+        ltc_quad(&surface, &self.lobes(&surface), quad.corners, false).to_array()
     }
 
     /// Every level, the cheapest first.
@@ -49,8 +65,7 @@ impl Method for Level {
     fn value(&self, quad: &Quad) -> [f64; 3] {
         let Input { position, normal, view, roughness, corners } = quad.into();
         let surface = ltc_surface::<f32>(position, normal, view, roughness);
-        let lobes = self.table.specular(&surface, self.effects);
-        let value: Vec3 = ltc_quad(&surface, &lobes, corners, false);
+        let value: Vec3 = ltc_quad(&surface, &self.lobes(&surface), corners, false);
         value.to_array().map(f64::from)
     }
 }
