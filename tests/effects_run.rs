@@ -26,8 +26,7 @@ fn selected_kernels_give_what_overrides_give() {
         parts.collect::<Vec<_>>().concat()
     };
     let whole = run(&Program::wgsl(source.clone()));
-    let present = Effects::present();
-    let diffuse = present.without(Effect::Ggx).without(Effect::CheapHorizon);
+    let diffuse = Effects::standing().without(Effect::Ggx);
     for effects in sets::sets(softbox::WGSL_INCLUDE).into_iter().step_by(3).chain([diffuse]) {
         let mut switched = source.clone();
         for (switch, on) in effects.switches() {

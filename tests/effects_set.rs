@@ -33,15 +33,17 @@ fn every_set_is_read_back_from_its_text() {
 #[test]
 fn sets_are_counted() {
     let mut count = 1; // the empty one
-    for bits in 0_u32..1 << 17 {
+    for bits in 0_u32..1 << 19 {
         let has = |bit: u32| bits & (1 << bit) != 0;
         let [quad, polygon, disk, _sphere, tube, textured] = [0, 1, 2, 3, 4, 5].map(has);
         let [ggx, clearcoat, _sheen, _rough, energy, anisotropic] = [6, 7, 8, 9, 10, 11].map(has);
-        let [two_sided, caps, cheap, second, third] = [12, 13, 14, 15, 16].map(has);
+        let [two_sided, caps, horizon, distance, table_free, second, third] =
+            [12, 13, 14, 15, 16, 17, 18].map(has);
         let lights = quad || !textured;
         let surfaces = (ggx || !(clearcoat || energy || anisotropic || second)) && (second || !third);
-        let options = (quad || polygon || disk || !two_sided) && (tube || !caps) && (quad || !cheap);
-        count += usize::from(lights && surfaces && options);
+        let options = (quad || polygon || disk || !two_sided) && (tube || !caps);
+        let cheap = (quad || polygon || !(horizon || distance)) && (ggx || !table_free);
+        count += usize::from(lights && surfaces && options && cheap);
     }
     assert_eq!(Effects::every().count(), count);
     let present = Effects::present();

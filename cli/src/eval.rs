@@ -15,7 +15,7 @@ use serde_json::Value;
 use softbox::brdf::{Brdf, Ggx};
 use softbox::device::{Batch, Device, EvaluateSurface, Program};
 use softbox::effects::{self, Effect, Effects, Quality};
-use softbox::light::{Light, LightError, light_value};
+use softbox::light::{Light, LightError, light_value_with};
 use softbox::scene::load_picture;
 use softbox::shade::{
     LTC_ROUGHNESS_FLOOR, LobeSum, LtcLookup, Real, Vector, ltc_quad_begin, ltc_quad_lobe, ltc_quad_toward,
@@ -289,7 +289,7 @@ fn by_twin<R: Real>(table: &Table, effects: Effects, case: &Case) -> Values {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), R::new(case.roughness));
     let lobes = table.specular(&surface, effects);
-    let value = light_value(&surface, &lobes, &case.light);
+    let value = light_value_with(&surface, &lobes, &case.light, effects);
     let [diffuse, specular, fresnel] = [value.x(), value.y(), value.z()].map(Real::to_f64);
     let (Some(picture), Light::Polygon { points, two_sided }) = (&case.picture, &case.light) else {
         return Values::White([diffuse, specular, fresnel]);

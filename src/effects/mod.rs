@@ -54,7 +54,10 @@ impl Effect {
     /// Whether it is part of the include as it stands: everything is but what trades accuracy for cost or cost for
     /// accuracy.
     pub const fn is_default(self) -> bool {
-        !matches!(self, Self::CheapHorizon | Self::SecondLobe | Self::ThirdLobe)
+        !matches!(
+            self,
+            Self::CheapHorizon | Self::CheapDistance | Self::TableFree | Self::SecondLobe | Self::ThirdLobe
+        )
     }
 
     const fn bit(self) -> u32 {
@@ -185,6 +188,11 @@ impl Effects {
         switched.map(move |entry| (entry.switch, self.contains(entry.effect)))
     }
 
+    /// Whether quads and polygons are neither cut nor told apart by distance.
+    pub const fn is_fast(self) -> bool {
+        self.contains(Effect::CheapHorizon) && self.contains(Effect::CheapDistance)
+    }
+
     /// Whether a surface of the set has a lobe.
     pub fn has_lobe(self) -> bool {
         self.iter().any(|effect| effect.entry().has_lobe)
@@ -202,7 +210,9 @@ impl Effects {
     pub fn layers(self) -> Vec<Layer> {
         let has = |effect: Effect| self.contains(effect);
         let is_read = |layer: &Layer| match layer {
-            Layer::Shape | Layer::Amplitude => has(Effect::Anisotropic) || !has(Effect::SecondLobe),
+            Layer::Shape | Layer::Amplitude => {
+                has(Effect::Anisotropic) || !(has(Effect::SecondLobe) || has(Effect::TableFree))
+            }
             Layer::FirstOfTwo | Layer::SecondOfTwo | Layer::WeightsOfTwo => !has(Effect::ThirdLobe),
             _ => true,
         };

@@ -6,6 +6,8 @@ use super::{Effect, Effects, EffectsError};
 /// together by hand.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Quality {
+    /// One lobe by a closed form, without a table; round lights of the same vector form factor where a horizon cuts.
+    Fast,
     /// One lobe, exact horizons.
     #[default]
     Standard,
@@ -17,11 +19,12 @@ pub enum Quality {
 
 impl Quality {
     /// Every level, the cheapest first.
-    pub const ALL: [Self; 3] = [Self::Standard, Self::Fine, Self::Finest];
+    pub const ALL: [Self; 4] = [Self::Fast, Self::Standard, Self::Fine, Self::Finest];
 
     /// The effects by which the level differs from [`Quality::Standard`].
     const fn changes(self) -> &'static [Effect] {
         match self {
+            Self::Fast => &[Effect::CheapHorizon, Effect::CheapDistance, Effect::TableFree],
             Self::Standard => &[],
             Self::Fine => &[Effect::SecondLobe],
             Self::Finest => &[Effect::SecondLobe, Effect::ThirdLobe],
@@ -31,6 +34,7 @@ impl Quality {
     /// Its name in texts.
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Fast => "fast",
             Self::Standard => "standard",
             Self::Fine => "fine",
             Self::Finest => "finest",
@@ -40,6 +44,9 @@ impl Quality {
     /// What the level does, in one sentence.
     pub const fn meaning(self) -> &'static str {
         match self {
+            Self::Fast => {
+                "One lobe by a closed form, without a table; quads and polygons uncut, a horizon by a formula in their vector form factor."
+            }
             Self::Standard => "One lobe from a table of two layers, cut exactly at both horizons.",
             Self::Fine => {
                 "The sum of two lobes, each with a weight for either part, from a table of three layers."
@@ -59,6 +66,7 @@ impl Quality {
     /// let scene: Effects = "quad+ggx".parse()?;
     /// assert_eq!(Quality::Fine.of(scene).to_string(), "quad+ggx+second-lobe");
     /// assert_eq!(Quality::Standard.of(Quality::Finest.of(scene)), scene);
+    /// assert_eq!(Quality::Fast.of(scene).to_string(), "quad+ggx+cheap-horizon,cheap-distance,table-free");
     /// // Diffuse surfaces have no lobe.
     /// assert_eq!(Quality::Finest.of("quad".parse()?).to_string(), "quad");
     /// # Ok::<(), softbox::effects::EffectsError>(())

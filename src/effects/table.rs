@@ -144,7 +144,9 @@ table! {
 
     TwoSided     Option "two-sided"     "ltc_use_two_sided"     needs [Quad, Polygon, Disk] roots [] with_lobe [] has_lobe false layers [] "Lights that emit from both sides.";
     Caps         Option "caps"          "ltc_use_caps"          needs [Tube] roots [] with_lobe [] has_lobe false layers [] "Tubes with ends that emit.";
-    CheapHorizon Option "cheap-horizon" "ltc_use_cheap_horizon" needs [Quad] roots [] with_lobe [] has_lobe false layers [] "Quads cut at the horizons by a cheap approximation.";
+    CheapHorizon  Option "cheap-horizon"  "ltc_use_cheap_horizon"  needs [Quad, Polygon] roots [] with_lobe [] has_lobe false layers [] "Quads and polygons cut at the horizons by a cheap approximation.";
+    CheapDistance Option "cheap-distance" "ltc_use_cheap_distance" needs [Quad, Polygon] roots [] with_lobe [] has_lobe false layers [] "Small lights treated like any other, at a loss of digits.";
+    TableFree     Option "table-free"     "ltc_use_table_free"     needs [Ggx] roots ["ltc_lobe_fitted"] with_lobe [] has_lobe false layers [] "A closed form in place of the table of specular reflection.";
     SecondLobe   Option "second-lobe"   "ltc_use_second_lobe"   needs [Ggx] roots ["ltc_two_lobes"] with_lobe [] has_lobe false layers [Layer::FirstOfTwo, Layer::SecondOfTwo, Layer::WeightsOfTwo] "Isotropic specular reflection by the sum of two lobes.";
     ThirdLobe    Option "third-lobe"    "ltc_use_third_lobe"    needs [SecondLobe] roots ["ltc_three_lobes"] with_lobe [] has_lobe false layers [Layer::FirstOfThree, Layer::SecondOfThree, Layer::ThirdOfThree, Layer::WeightsOfThree, Layer::ExcessesOfThree] "Isotropic specular reflection by the sum of three lobes.";
 }

@@ -17,14 +17,33 @@ pub fn fit_hyperbolic_excess(degree: usize) -> (Vec<f64>, f64) {
     fit_excess(degree, hyperbolic_excess)
 }
 
+/// Coefficients τ₀…τ_degree, and the largest relative error of 1 + (1/c − 1)·Σ τᵢcⁱ against θ / sin θ, with
+/// c = cos(θ/2), over all angles: the pole at 180° is that of 1/c.
+///
+/// The include's `ltc_fast_ratio` holds what follows from the coefficients for degree 2, with twice the cosine.
+pub fn fit_half_angle(degree: usize) -> (Vec<f64>, f64) {
+    let quotient = |c: f64| {
+        let sine = (1.0 - c * c).sqrt();
+        // For small angles the difference of the two has no digits; θ / sin θ − 1 is 4/3 of 1/c − 1 there.
+        if c > 1.0 - 1e-7 { 4.0 / 3.0 } else { (c.acos() / sine - c) / (1.0 - c) }
+    };
+    // (1/c − 1) over 1 + (1/c − 1)·τ, without the pole.
+    remez(degree, quotient, |c| (1.0 - c) / (c + (1.0 - c) * quotient(c)))
+}
+
 /// Coefficients of the polynomial q(k) for which 1 + k·q(k) is closest to 1 + `excess`(k) on 0 ≤ k ≤ 1,
 /// and the largest relative error.
 fn fit_excess(degree: usize, excess: fn(f64) -> f64) -> (Vec<f64>, f64) {
+    remez(degree, |k| excess(k) / k, |k| k / (1.0 + excess(k)))
+}
+
+/// Coefficients of the polynomial whose largest weighted error against `target` on 0 < k ≤ 1 is the least, and that
+/// error.
+fn remez(degree: usize, target: impl Fn(f64) -> f64, weight: impl Fn(f64) -> f64) -> (Vec<f64>, f64) {
     let unknowns = degree + 2;
-    let weight = |k: f64| k / (1.0 + excess(k));
     let error = |coefficients: &[f64], k: f64| {
         let fitted = coefficients.iter().rev().fold(0.0, |sum, q| sum * k + q);
-        weight(k) * (fitted - excess(k) / k)
+        weight(k) * (fitted - target(k))
     };
     let grid: Vec<f64> =
         (1..=20_000).map(|i| 0.5 - 0.5 * (core::f64::consts::PI * f64::from(i) / 20_000.0).cos()).collect();
@@ -39,7 +58,7 @@ fn fit_excess(degree: usize, excess: fn(f64) -> f64) -> (Vec<f64>, f64) {
         let rows = points.iter().enumerate().map(|(i, &k)| {
             let mut row: Vec<f64> = (0..=degree).map(|power| k.powi(power as i32)).collect();
             row.push(if i % 2 == 0 { 1.0 } else { -1.0 } / weight(k));
-            row.push(excess(k) / k);
+            row.push(target(k));
             row
         });
         coefficients = eliminate(rows.collect());

@@ -6,6 +6,7 @@
 
 mod angle;
 mod anisotropic;
+mod fitted;
 mod layout;
 mod point;
 mod published;
@@ -14,8 +15,9 @@ mod single;
 mod texture;
 mod whole;
 
-pub use angle::{fit_angle_excess, fit_hyperbolic_excess};
+pub use angle::{fit_angle_excess, fit_half_angle, fit_hyperbolic_excess};
 pub use anisotropic::{FittedAnisotropic, bake_anisotropic};
+pub use fitted::{fit_lobe_formula, fit_round_above};
 pub use layout::Layout;
 pub use point::{PointFit, fit_point};
 pub use published::{bake_published, fit_published_angle, published_lobe};

@@ -8,7 +8,7 @@ mod value;
 
 pub use check::LightError;
 pub use outline::{is_convex_quad, polygon_normal};
-pub use value::{light_value, polygon_value};
+pub use value::{light_value, light_value_with, polygon_value};
 
 use glam::DVec3;
 

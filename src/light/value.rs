@@ -3,9 +3,10 @@
 use glam::DVec3;
 
 use super::{Light, is_convex_quad};
+use crate::effects::Effects;
 use crate::shade::{
-    LobeSum, LtcSurface, Real, Vector, ltc_disk, ltc_polygon_add, ltc_polygon_begin, ltc_polygon_end,
-    ltc_quad, ltc_sphere, ltc_tube,
+    LobeSum, LtcSurface, Real, Vector, ltc_disk, ltc_fast_polygon, ltc_fast_quad, ltc_polygon_add,
+    ltc_polygon_begin, ltc_polygon_end, ltc_quad, ltc_sphere, ltc_tube,
 };
 
 /// The value (diffuse, specular, fresnel) of a polygon light, by `ltc_quad` for a `convex_quad` and by the
@@ -29,6 +30,36 @@ pub fn polygon_value<R: Real>(
         ltc_polygon_add(&mut polygon, surface, lobes, *point);
     }
     ltc_polygon_end(&mut polygon, surface, lobes, two_sided)
+}
+
+/// The value (diffuse, specular, fresnel) of any light with some effects.
+pub fn light_value_with<R: Real>(
+    surface: &LtcSurface<R>,
+    lobes: &impl LobeSum<R>,
+    light: &Light,
+    effects: Effects,
+) -> R::Vec3 {
+    match light {
+        Light::Polygon { points, two_sided } if effects.is_fast() => {
+            let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
+            let points: Vec<R::Vec3> = points.iter().map(|point| v(*point)).collect();
+            match points[..] {
+                [a, b, c] => ltc_fast_quad(surface, lobes, [a, b, c, c], *two_sided),
+                [a, b, c, d] if is_convex_quad(light_points(light)) => {
+                    ltc_fast_quad(surface, lobes, [a, b, c, d], *two_sided)
+                }
+                _ => ltc_fast_polygon(surface, lobes, &points, *two_sided),
+            }
+        }
+        _ => light_value(surface, lobes, light),
+    }
+}
+
+fn light_points(light: &Light) -> &[DVec3] {
+    match light {
+        Light::Polygon { points, .. } => points,
+        _ => &[],
+    }
 }
 
 /// The value (diffuse, specular, fresnel) of any light.

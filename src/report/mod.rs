@@ -21,10 +21,10 @@ pub mod page;
 #[cfg(feature = "bake")]
 mod texture;
 
-#[cfg(feature = "bake")]
-pub use measure::{Accuracy, Quad, REGIONS, Region, Technique, accuracy, random_quads, shade};
 #[cfg(feature = "report")]
 pub use gather::{Gathered, ReportError, Settings, gather};
+#[cfg(feature = "bake")]
+pub use measure::{Accuracy, Quad, REGIONS, Region, Technique, accuracy, random_quads, shade};
 #[cfg(feature = "report")]
 pub use method::Method;
 #[cfg(feature = "bake")]

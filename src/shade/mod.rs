@@ -21,6 +21,8 @@
 mod anisotropic;
 mod cone;
 mod disk;
+mod fast;
+mod fitted;
 mod layers;
 mod polygon;
 mod quad;
@@ -47,6 +49,11 @@ pub use disk::{
     LtcDisk, LtcSphere, ltc_disk, ltc_disk_begin, ltc_disk_diffuse, ltc_disk_lobe, ltc_sphere,
     ltc_sphere_begin, ltc_sphere_diffuse, ltc_sphere_lobe,
 };
+pub use fast::{
+    LTC_HALF_ANGLE, LTC_ROUND_ABOVE, LtcFastLight, ltc_fast_edge, ltc_fast_form_factor, ltc_fast_polygon,
+    ltc_fast_quad, ltc_fast_ratio, ltc_fast_unit, ltc_round_above,
+};
+pub use fitted::{FittedLobe, LTC_FITTED, ltc_lobe_fitted};
 pub use layers::{
     LTC_ALBEDO_FLOOR, LTC_SHEEN_ROUGHNESS_FLOOR, ltc_coat_over, ltc_coat_transmission, ltc_diffuse_lobe,
     ltc_energy_compensation, ltc_rough_diffuse, ltc_sheen_lobe, ltc_sheen_over, ltc_surface_with_roughness,

@@ -4,6 +4,7 @@
 use super::anisotropic::{ltc_anisotropic_alpha, ltc_anisotropy};
 use super::disk::{ltc_disk_begin, ltc_disk_diffuse, ltc_disk_lobe};
 use super::disk::{ltc_sphere_begin, ltc_sphere_diffuse, ltc_sphere_lobe};
+use super::fast::LtcFastLight;
 use super::layers::{
     ltc_coat_over, ltc_energy_compensation, ltc_rough_diffuse, ltc_sheen_over, ltc_surface_with_roughness,
 };
@@ -83,6 +84,8 @@ pub struct LtcShading<R: Real> {
     pub sheen: Option<LtcLobe<R>>,
     /// The lobe of a rough diffuse part.
     pub rough: Option<LtcLobe<R>>,
+    /// Whether quads and polygons are as [`LtcFastLight`] has them.
+    pub fast: bool,
     /// Whether rough metals get back what their facets reflect more than once.
     pub energy_compensation: bool,
 }
@@ -172,6 +175,7 @@ pub fn ltc_shading<R: Real>(
         coat: on(Effect::ClearCoat).then(|| table.specular(&with(material.coat_roughness), effects)),
         sheen: on(Effect::Sheen).then(|| table.sheen_lobe(&with(material.sheen_roughness))),
         rough: on(Effect::RoughDiffuse).then(|| table.diffuse_lobe(&with(material.diffuse_roughness))),
+        fast: effects.is_fast(),
         energy_compensation: on(Effect::EnergyCompensation),
     }
 }
@@ -211,6 +215,10 @@ pub fn ltc_shading_quad<R: Real>(
     vertices: [R::Vec3; 4],
     two_sided: bool,
 ) -> LtcReceived<R> {
+    if shading.fast {
+        let light = LtcFastLight::quad(&shading.surface, vertices, two_sided);
+        return received(shading, light.diffuse(), |lobe| light.lobe(lobe));
+    }
     let quad = ltc_quad_begin(&shading.surface, vertices, two_sided);
     received(shading, ltc_quad_diffuse(&shading.surface, &quad), |lobe| ltc_quad_lobe(&quad, lobe))
 }
@@ -255,6 +263,10 @@ pub fn ltc_shading_polygon<R: Real>(
     vertices: &[R::Vec3],
     two_sided: bool,
 ) -> LtcReceived<R> {
+    if shading.fast {
+        let light = LtcFastLight::polygon(&shading.surface, vertices, two_sided);
+        return received(shading, light.diffuse(), |lobe| light.lobe(lobe));
+    }
     let steps = || {
         let mut outline = ltc_outline_begin(&shading.surface, vertices[0]);
         vertices.iter().cycle().skip(1).take(vertices.len()).map(move |vertex| {

@@ -3,7 +3,8 @@
 use super::{Layer, Table};
 use crate::effects::{Effect, Effects};
 use crate::shade::{
-    LtcLobes, LtcSpecular, LtcSurface, Real, ltc_table_coordinates, ltc_three_lobes, ltc_two_lobes,
+    LtcLobes, LtcSpecular, LtcSurface, Real, ltc_lobe_fitted, ltc_table_coordinates, ltc_three_lobes,
+    ltc_two_lobes,
 };
 
 impl Table {
@@ -25,6 +26,9 @@ impl Table {
     ///
     /// If the table lacks their layers.
     pub fn specular<R: Real>(&self, surface: &LtcSurface<R>, effects: Effects) -> LtcSpecular<R> {
+        if effects.contains(Effect::TableFree) && !effects.contains(Effect::SecondLobe) {
+            return LtcSpecular::One(ltc_lobe_fitted(surface));
+        }
         match (effects.contains(Effect::SecondLobe), effects.contains(Effect::ThirdLobe)) {
             (false, _) => LtcSpecular::One(self.lobe(surface)),
             (true, false) => LtcSpecular::Several(self.lobes(surface, 2)),

@@ -8,7 +8,9 @@ use crate::effects::{Effect, Effects, Quality};
 use crate::report::data::{Kind, MethodInfo};
 use crate::report::measure::Quad;
 use crate::report::method::Method;
-use crate::shade::{LTC_ROUGHNESS_FLOOR, LtcSpecular, LtcSurface, Real, ltc_quad, ltc_surface};
+use crate::shade::{
+    LTC_ROUGHNESS_FLOOR, LtcSpecular, LtcSurface, Real, ltc_fast_quad, ltc_quad, ltc_surface,
+};
 use crate::table::Table;
 use crate::truth;
 
@@ -39,10 +41,19 @@ impl Level {
         self.table.specular(surface, self.effects)
     }
 
+    fn quad<R: Real>(&self, surface: &LtcSurface<R>, corners: [R::Vec3; 4]) -> R::Vec3 {
+        let lobes = self.lobes(surface);
+        if self.effects.is_fast() {
+            ltc_fast_quad(surface, &lobes, corners, false)
+        } else {
+            ltc_quad(surface, &lobes, corners, false)
+        }
+    }
+
     /// [`Method::value`] in double precision.
     pub fn precise_value(&self, quad: &Quad) -> [f64; 3] {
         let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, quad.view, quad.roughness);
-        ltc_quad(&surface, &self.lobes(&surface), quad.corners, false).to_array()
+        self.quad(&surface, quad.corners).to_array()
     }
 
     /// Every level, the cheapest first.
@@ -65,7 +76,7 @@ impl Method for Level {
     fn value(&self, quad: &Quad) -> [f64; 3] {
         let Input { position, normal, view, roughness, corners } = quad.into();
         let surface = ltc_surface::<f32>(position, normal, view, roughness);
-        let value: Vec3 = ltc_quad(&surface, &self.lobes(&surface), corners, false);
+        let value: Vec3 = self.quad(&surface, corners);
         value.to_array().map(f64::from)
     }
 }
