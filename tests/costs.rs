@@ -5,8 +5,8 @@ use softbox::device::{Device, Program};
 use softbox::effects::Effects;
 use softbox::report::costs::inputs;
 use softbox::report::costs::{
-    Adapter, Bench, Bound, COMPUTE, EFFECTS, Executed, INPUTS, Interpreter, Job, Kernel, Operations, Texels,
-    execute, executed_growth, lobes_of_one_light, scene,
+    Adapter, BASELINE, Bench, Bound, COMPUTE, EFFECTS, Executed, INPUTS, Interpreter, Job, Kernel,
+    Operations, Texels, execute, executed_growth, lobes_of_one_light, scene,
 };
 use softbox::translate::kernel_spirv;
 
@@ -102,7 +102,9 @@ fn methods_have_the_same_values_interpreted_as_on_a_device() {
         kernels.push(lobes_of_one_light(2, shared).unwrap_or_else(|error| panic!("{error}")));
     }
     for kernel in kernels {
-        assert_close(&kernel.name, both(&job(&kernel, &inputs), COMPUTE, 256), 3e-5);
+        // The published edge integral has no more digits where a light touches the surface.
+        let tolerance = if kernel.name == BASELINE { 3e-4 } else { 3e-5 };
+        assert_close(&kernel.name, both(&job(&kernel, &inputs), COMPUTE, 256), tolerance);
     }
 }
 
@@ -253,7 +255,8 @@ fn a_wave_takes_what_any_of_it_takes() {
 fn costs_grow_with_lights_vertices_and_lobes() {
     let curves = executed_growth().unwrap_or_else(|error| panic!("{error}"));
     let mut charts = 0;
-    for curve in curves.iter().filter(|curve| curve.chart != "effects") {
+    let named = ["effects", "lobes"];
+    for curve in curves.iter().filter(|curve| !named.contains(&curve.chart.as_str())) {
         charts += 1;
         assert!(curve.x.len() == curve.y.len() && curve.x.len() >= 4, "{curve:?}");
         assert!(
@@ -264,7 +267,13 @@ fn costs_grow_with_lights_vertices_and_lobes() {
             curve.y
         );
     }
-    assert!(charts >= 8, "{charts} curves");
+    assert!(charts >= 7, "{charts} curves");
+    for curve in curves.iter().filter(|curve| curve.chart == "lobes") {
+        let slots = |name: &str| curve.y[curve.names.iter().position(|one| one == name).expect("a name")];
+        let sums = ["diffuse", "specular", "two lobes", "three lobes"].map(slots);
+        let layers = ["diffuse", "specular", "and a coat", "and a sheen", "and rough diffuse"].map(slots);
+        assert!(sums.is_sorted() && layers.is_sorted(), "{sums:?}, {layers:?}");
+    }
     let of = |name: &str| curves.iter().find(|curve| curve.method == name).map(|curve| curve.y[3]);
     let (once, each) = (of("ltc_quad_begin once"), of("ltc_quad for each lobe"));
     assert!(once < each, "four lobes: {once:?} with the work on the light shared, {each:?} without");
@@ -287,7 +296,8 @@ fn methods_are_timed_by_either_clock() {
         let measured =
             time(&Kernel::levels(), &adapter, effort, "test").unwrap_or_else(|error| panic!("{error}"));
         assert!(measured.device.contains("llvmpipe"), "{}", measured.device);
-        assert!((measured.times[0].ratio - 1.0).abs() < 1e-12, "{:?}", measured.times);
+        let base = measured.times.iter().find(|time| time.method == BASELINE);
+        assert!(base.is_some_and(|time| (time.ratio - 1.0).abs() < 1e-12), "{:?}", measured.times);
         for time in &measured.times {
             assert!(
                 time.nanoseconds > 0.0 && time.ratio > 0.0 && time.median_ratio > 0.0 && time.spread >= 0.0,

@@ -100,6 +100,32 @@ fn lobes_are_lobes_everywhere() {
     }
 }
 
+/// A view along the normal has no azimuth, and what rounding says of it must not show: lobes are round there.
+#[test]
+fn seen_along_the_normal_light_may_turn_around_it() {
+    for count in COUNTS {
+        let table = table(count);
+        for roughness in [0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0] {
+            let surface = surface(roughness, 1.0);
+            let lobes = table.lobes(&surface, count);
+            let value = |turn: f64| {
+                let corner = |x: f64, y: f64| {
+                    let (sin, cos) = turn.sin_cos();
+                    DVec3::new(cos * x - sin * y, sin * x + cos * y, 1.5)
+                };
+                let corners = [corner(0.2, -0.3), corner(0.2, 0.9), corner(0.9, 0.9), corner(0.9, -0.3)];
+                ltc_quad(&surface, &lobes, corners, false)
+            };
+            let still = value(0.0);
+            for turn in [0.4, 1.1, 2.0, 4.4] {
+                let turned = value(turn);
+                let difference = (turned - still).abs().max_element();
+                assert!(difference < 1e-12, "{count} lobes, roughness {roughness}: {turned} and {still}");
+            }
+        }
+    }
+}
+
 /// A light that covers the whole hemisphere gets the albedo and the Schlick part, which the default table holds.
 #[test]
 fn a_light_all_around_gets_everything() {

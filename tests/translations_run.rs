@@ -113,8 +113,11 @@ fn glsl(version: &str, defines: &str, target: Target) -> String {
 fn glsl_through_glslang_is_bit_identical_to_wgsl() {
     let folder = tools::scratch("glsl");
     for (name, version, target) in [("450", "450", Target::Glsl450), ("310", "310 es", Target::GlslEs310)] {
-        let source =
-            tools::write(&folder, &format!("{name}.comp"), glsl(version, "#define TABLE_SEPARATE\n", target));
+        let source = tools::write(
+            &folder,
+            &format!("{name}.comp"),
+            glsl(version, "#define TABLE_SEPARATE\n#define LOBES 1\n", target),
+        );
         let output = folder.join(format!("{name}.spv"));
         tools::run(Command::new("glslangValidator").arg("-V").arg(&source).arg("-o").arg(&output));
         let values = run(vulkan(), &spirv(tools::read(&output), "main"));

@@ -445,15 +445,14 @@ fn ltc_reflectance(value: vec3<f32>, normal_reflectance: vec3<f32>, grazing_refl
 
 /// Schlick's factor (1 - v.h)^5 for light from a direction `toward` in the lobe's space, of any length.
 fn ltc_schlick(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> f32 {
-    let turned = lobe.frame_normal_x * toward.x + lobe.frame_normal_y * toward.y + lobe.frame_normal_z * toward.z;
-    // cos^2 of half the angle between view and light: the half vector's cosine, squared.
-    var along: f32;
-    if (ltc_use_cheap_distance) {
-        along = (surface.sin_view * turned.x + surface.cos_view * turned.z) * ltc_inverse_length(turned);
-    }
+    var turned = lobe.frame_normal_x * toward.x + lobe.frame_normal_y * toward.y + lobe.frame_normal_z * toward.z;
     if (!ltc_use_cheap_distance) {
-        let direction = ltc_direction(turned);
-        along = surface.sin_view * direction.x + surface.cos_view * direction.z;
+        turned = ltc_direction(turned);
+    }
+    // cos^2 of half the angle between view and light: the half vector's cosine, squared.
+    var along = surface.sin_view * turned.x + surface.cos_view * turned.z;
+    if (ltc_use_cheap_distance) {
+        along *= ltc_inverse_length(turned);
     }
     let half_cosine = clamp(0.5 + 0.5 * along, 0.0, 1.0);
     let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
@@ -1523,15 +1522,14 @@ fn ltc_outline_lobes_begin() -> LtcOutlineLobes {
 
 /// Adds the outline's last edge to the lobes of a sum.
 fn ltc_outline_lobes_add(sums: ptr<function, LtcOutlineLobes>, surface: LtcSurface, outline: LtcOutline, lobes: LtcLobes) {
+    var sum = (*sums).first;
     if (!ltc_use_second_lobe) {
-        var only = (*sums).first;
-        ltc_outline_lobe_add(&only, outline, lobes.first);
-        (*sums).first = only;
+        ltc_outline_lobe_add(&sum, outline, lobes.first);
+        (*sums).first = sum;
     }
     if (ltc_use_second_lobe) {
         var lobe = lobes.first;
         var shape = lobes.second;
-        var sum = (*sums).first;
         var index = 1;
         loop {
             ltc_outline_lobe_add(&sum, outline, lobe);
@@ -2902,10 +2900,10 @@ fn ltc_sphere_diffuse(sphere: LtcSphere) -> f32 {
 }
 
 /// The vector form factor of a sphere in a lobe's space, cut at both horizons, towards the light. A sphere around
-/// the surface point covers the whole lobe, evenly.
+/// the surface point covers the whole lobe.
 fn ltc_sphere_lobe(sphere: LtcSphere, lobe: LtcLobe) -> vec3<f32> {
     if (sphere.inside) {
-        return vec3<f32>(0.0, 0.0, lobe.share);
+        return vec3<f32>(ltc_all_around(lobe).xy, lobe.share);
     }
     return ltc_disk_lobe(sphere.disk, lobe);
 }

@@ -27,7 +27,7 @@ pub struct EffectsArguments {
 /// If the scene cannot be read.
 pub fn effects(arguments: &EffectsArguments) -> anyhow::Result<()> {
     let scene = Scene::load(&arguments.scene)?;
-    let mut text = format!("{}\n", arguments.quality.of(scene.effects()));
+    let mut text = format!("{}\n", arguments.quality.of_scene(&scene));
     if arguments.list {
         for (place, effects) in scene.entries() {
             text += &format!("{place:20} {effects}\n");

@@ -14,7 +14,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use softbox::brdf::{Brdf, Ggx};
 use softbox::device::{Batch, Device, EvaluateSurface, Program};
-use softbox::effects::{self, Effect, Effects, Quality};
+use softbox::effects::{self, Effects, Quality};
 use softbox::light::{Light, LightError, light_value_with};
 use softbox::scene::load_picture;
 use softbox::shade::{
@@ -123,8 +123,11 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
         None => ("standard input".to_owned(), Box::new(io::stdin())),
     };
     let mut input = BufReader::with_capacity(1 << 16, input);
-    let effects = arguments.quality.of(Effects::standing().without(Effect::Anisotropic));
-    let table = Table::default().completed(&effects.layers()).only(&effects.layers());
+    let effects = "quad,polygon,disk,sphere,tube,textured+ggx+two-sided,caps".parse::<Effects>()?;
+    let effects = arguments.quality.of(effects);
+    let layers = effects.layers();
+    let table = Table::default().completed(&layers);
+    let table = if layers.is_empty() { table } else { table.only(&layers) };
     let device = match arguments.on {
         On::Gpu => Some(Device::open(wgpu::Backends::VULKAN)?),
         _ => None,

@@ -44,12 +44,15 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     check_size(arguments.table_size)?;
     let family = arguments.model.family()?;
     let effects = match &arguments.scene {
-        Some(scene) => Some(Scene::load(scene)?.effects()),
+        Some(scene) => {
+            let scene = Scene::load(scene)?;
+            Some(arguments.quality.map_or_else(|| scene.effects(), |level| scene.effects_at(level)))
+        }
         None => arguments.effects.as_deref().map(str::parse::<Effects>).transpose()?,
     };
     let effects = match arguments.quality {
-        Some(level) => Some(level.of(effects.unwrap_or_else(Effects::standing))),
-        None => effects,
+        Some(level) if arguments.scene.is_none() => Some(level.of(effects.unwrap_or_else(Effects::standing))),
+        _ => effects,
     };
     let contents = Contents { table_size: arguments.table_size, effects, ..Contents::default() };
     let bar = progress::bar("Building");

@@ -2,6 +2,7 @@
 
 use clap::Args;
 use softbox::effects::{Effects, Quality};
+use softbox::scene::Scene;
 
 #[derive(Args, Clone, Copy, Debug)]
 pub struct QualityArguments {
@@ -11,6 +12,11 @@ pub struct QualityArguments {
 }
 
 impl QualityArguments {
+    /// What a scene calls for at the level, or at any.
+    pub fn of_scene(&self, scene: &Scene) -> Effects {
+        self.quality.map_or_else(|| scene.effects(), |level| scene.effects_at(level))
+    }
+
     /// The set at the level, or as it is where none is given.
     pub fn of(&self, effects: Effects) -> Effects {
         self.quality.map_or(effects, |level| level.of(effects))

@@ -54,10 +54,9 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
     check_png_path(&arguments.out)?;
     let scene = Scene::load(&arguments.scene)?;
     let effects = match &arguments.effects {
-        Some(text) => text.parse()?,
-        None => scene.effects(),
+        Some(text) => arguments.quality.of(text.parse()?),
+        None => arguments.quality.of_scene(&scene),
     };
-    let effects = arguments.quality.of(effects);
     scene.check_effects(effects).with_context(|| arguments.scene.display().to_string())?;
     let with_truth = arguments.truth || arguments.difference;
     let width = arguments.width.unwrap_or(if with_truth { 480 } else { 960 });

@@ -23,7 +23,7 @@ mod wgsl;
 use core::ops::{BitAnd, BitOr, Sub};
 
 pub use error::EffectsError;
-pub use quality::Quality;
+pub use quality::{ErrorBound, Quality};
 #[cfg(feature = "translate")]
 pub(crate) use source::{Formula, words};
 use table::TABLE;
@@ -222,6 +222,13 @@ impl Effects {
                 layers.push(*layer);
             }
         }
+        // A sum of lobes comes right behind the single lobe, or first.
+        let place = |layer: &Layer| match layer {
+            Layer::Shape | Layer::Amplitude => 0,
+            layer if Layer::TWO_LOBES.contains(layer) || Layer::THREE_LOBES.contains(layer) => 1,
+            _ => 2,
+        };
+        layers.sort_by_key(place);
         layers
     }
 

@@ -26,13 +26,16 @@ pub const FAMILIES: [&str; 3] = ["navi10", "navi21", "gfx1100"];
 
 /// Sets that scenes commonly call for. Those of which the include lacks something are left out.
 pub fn typical() -> Vec<Effects> {
-    const TYPICAL: [&str; 18] = [
+    const TYPICAL: [&str; 21] = [
         "none",
         "quad",
         "polygon",
         "quad+ggx",
         "quad+ggx+two-sided",
         "quad+ggx+cheap-horizon",
+        "quad+ggx+cheap-horizon,cheap-distance,table-free",
+        "quad+ggx+second-lobe",
+        "quad+ggx+second-lobe,third-lobe",
         "polygon+ggx",
         "quad,polygon+ggx",
         "disk+ggx",

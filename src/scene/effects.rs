@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Light, Material, Scene, SceneError, Shape};
-use crate::effects::{Effect, Effects};
+use crate::effects::{Effect, Effects, Quality};
 use crate::shade::{LtcMaterial, ltc_material};
 
 /// A set of effects that is known to have what each of them needs.
@@ -48,6 +48,30 @@ impl Material {
 }
 
 impl Scene {
+    /// The least set of effects that draws the scene at a quality level. Where the second or third lobe of a level is not
+    /// needed to keep what the level promises of a dielectric, it is left out: metals, whose Schlick part is small, have
+    /// with a lobe less no larger an error than a dielectric with it.
+    pub fn effects_at(&self, level: Quality) -> Effects {
+        let promised = level.error_bound().dielectric;
+        let keeps = |cheaper: Quality| {
+            self.objects.iter().all(|object| {
+                let material = &object.material;
+                let (normal, grazing) = (material.f0.to_array(), material.f90.to_array());
+                let coat = if material.coat > 0.0 {
+                    cheaper.expected_error(material.coat_reflectance, 1.0)
+                } else {
+                    0.0
+                };
+                let worst =
+                    (0..3).map(|k| cheaper.expected_error(normal[k], grazing[k])).fold(coat, f64::max);
+                worst <= promised
+            })
+        };
+        let exact = |cheaper: &Quality| *cheaper >= Quality::Standard && *cheaper < level;
+        let least = Quality::ALL.into_iter().filter(exact).find(|cheaper| keeps(*cheaper));
+        least.unwrap_or(level).of(self.effects())
+    }
+
     /// The least set of effects that draws the scene right: none at all if there is nothing to shade.
     pub fn effects(&self) -> Effects {
         let lights = self.lights.iter().fold(Effects::NONE, |sum, light| sum | light.effects());

@@ -6,7 +6,7 @@ use super::cone::{
 };
 use super::quad::{OVER_TWO_PI, ltc_angle_excess};
 use super::real::{Real, Vector};
-use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
+use super::several::{LobeSum, ltc_all_around, ltc_lobes_value, with_form_factor};
 use super::surface::{
     LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal,
 };
@@ -234,7 +234,8 @@ pub fn ltc_sphere_diffuse<R: Real>(sphere: &LtcSphere<R>) -> R {
 /// The vector form factor of a sphere in a lobe's space, cut at both horizons, towards the light.
 pub fn ltc_sphere_lobe<R: Real>(sphere: &LtcSphere<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     if sphere.inside {
-        return R::Vec3::new(R::new(0.0), R::new(0.0), lobe.share);
+        let around: R::Vec3 = ltc_all_around(lobe);
+        return R::Vec3::new(around.x(), around.y(), lobe.share);
     }
     ltc_disk_lobe(&sphere.disk, lobe)
 }

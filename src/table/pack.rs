@@ -28,8 +28,13 @@ impl Table {
             return Self::new(size, vec![layer], texels.collect());
         }
         let compatible = fitted.settings.layout == Layout::Compatible;
-        let shape = fitted.texels.iter().map(|texel| {
+        let native = fitted.settings.layout == Layout::Native;
+        let shape = fitted.texels.iter().enumerate().map(|(index, texel)| {
             let mut texel = texel.parameters.map(normal_half);
+            if native && index / size == size - 1 {
+                // Along the normal a lobe is round: light must not depend on the azimuth of such a view.
+                texel[0] = f16::ZERO;
+            }
             if compatible {
                 // A zero on the diagonal would make the matrix singular.
                 for k in [0, 3] {

@@ -6,8 +6,9 @@ pub mod tools;
 
 use glam::{DVec3, Vec3};
 use softbox::device::{Batch, EvaluateLight, EvaluateSurface};
+use softbox::effects::Effects;
 use softbox::light::{Light, light_value, polygon_value};
-use softbox::shade::{Real, Vector, ltc_surface};
+use softbox::shade::{LobeSum, Real, Vector, ltc_fast_polygon, ltc_fast_quad, ltc_surface};
 use softbox::table::Table;
 
 use families::TOUCHING;
@@ -129,25 +130,36 @@ pub fn perpendicular(width: f64, height: f64, gap: f64) -> f64 {
 
 /// The value of a case by the twin.
 pub fn twin<R: Real>(table: &Table, case: &Case) -> [f64; 3] {
+    twin_with::<R>(table, Effects::NONE, case)
+}
+
+/// The same with some effects.
+pub fn twin_with<R: Real>(table: &Table, effects: Effects, case: &Case) -> [f64; 3] {
     let v = |v: Vec3| R::Vec3::new(R::new(v.x.into()), R::new(v.y.into()), R::new(v.z.into()));
     let roughness = R::new(case.roughness.into());
     let surface = ltc_surface::<R>(v(case.position), v(case.normal), v(case.view), roughness);
-    let lobe = table.lobe(&surface);
+    let lobes = table.specular(&surface, effects);
     let value = match case.light() {
         Light::Polygon { two_sided, .. } => {
             let points: Vec<R::Vec3> = case.vertices.iter().map(|vertex| v(*vertex)).collect();
-            polygon_value(&surface, &lobe, &points, case.quad, two_sided)
+            match points[..] {
+                [a, b, c, d] if case.quad && effects.is_fast() => {
+                    ltc_fast_quad(&surface, &lobes, [a, b, c, d], two_sided)
+                }
+                _ if effects.is_fast() => ltc_fast_polygon(&surface, &lobes, &points, two_sided),
+                _ => polygon_value(&surface, &lobes, &points, case.quad, two_sided),
+            }
         }
-        light => light_value(&surface, &lobe, &light),
+        light => light_value(&surface, &lobes, &light),
     };
     [value.x(), value.y(), value.z()].map(Real::to_f64)
 }
 
-/// The albedo of the lobe that a case is shaded with.
-pub fn albedo(table: &Table, case: &Case) -> f64 {
+/// The albedo of the lobes that a case is shaded with.
+pub fn albedo(table: &Table, effects: Effects, case: &Case) -> f64 {
     let v = |v: Vec3| v.as_dvec3();
     let surface = ltc_surface::<f64>(v(case.position), v(case.normal), v(case.view), case.roughness.into());
-    table.lobe(&surface).albedo
+    table.specular(&surface, effects).lobes().iter().map(|lobe| lobe.albedo).sum()
 }
 
 /// The cases as buffers of the evaluation kernel, one surface and one light each.
@@ -204,6 +216,17 @@ struct Worst {
 /// Checks values against the bounds and exact arithmetic (the twin in f64, or a closed form).
 /// Returns the worst form-factor error of each family; panics with the first offenders.
 pub fn check(what: &str, cases: &[Case], exact: &[[f64; 3]], values: &[[f32; 3]], table: &Table) {
+    check_with(what, cases, exact, values, (table, Effects::NONE));
+}
+
+/// The same with some effects.
+pub fn check_with(
+    what: &str,
+    cases: &[Case],
+    exact: &[[f64; 3]],
+    values: &[[f32; 3]],
+    (table, effects): (&Table, Effects),
+) {
     assert_eq!(cases.len(), values.len(), "{what}: one value for each case");
     let mut worst: std::collections::BTreeMap<&str, Worst> = std::collections::BTreeMap::new();
     let mut offenders = Vec::new();
@@ -222,7 +245,7 @@ pub fn check(what: &str, cases: &[Case], exact: &[[f64; 3]], values: &[[f32; 3]]
             Bound::Zero | Bound::Physical => 0.0,
         };
         // One rounding of the table's own interpolation may separate device and twin.
-        let albedo = albedo(table, case) * (1.0 + 1e-6);
+        let albedo = albedo(table, effects, case) * (1.0 + 1e-6);
         let physical = (0.0..=1.0).contains(&diffuse)
             && (0.0..=albedo).contains(&specular)
             && (0.0..=specular * (1.0 + 1e-6)).contains(&fresnel);

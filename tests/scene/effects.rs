@@ -132,3 +132,25 @@ fn what_is_missing_is_named_with_its_place() {
         assert!(error.starts_with(&start), "{error}; not {start}");
     }
 }
+
+/// Metals keep with a lobe less what a level promises of dielectrics.
+#[test]
+fn a_scene_of_metals_needs_fewer_lobes() {
+    use softbox::effects::{Effect, Quality};
+
+    let scene = |f0: &str| {
+        let ball = format!(
+            "[[sphere]]\ncentre = [0.0, 0.0, 0.0]\nradius = 0.5\nmaterial = {{ roughness = 0.4, f0 = {f0} }}\n"
+        );
+        Scene::parse(&format!("{CAMERA}{ball}{LIGHT}"), "metals").unwrap_or_else(|error| panic!("{error}"))
+    };
+    let lobes = |f0: &str, level: Quality| {
+        let effects = scene(f0).effects_at(level);
+        1 + usize::from(effects.contains(Effect::SecondLobe))
+            + usize::from(effects.contains(Effect::ThirdLobe))
+    };
+    let levels = [Quality::Standard, Quality::Fine, Quality::Finest];
+    assert_eq!(levels.map(|level| lobes("0.04", level)), [1, 2, 3]);
+    assert_eq!(levels.map(|level| lobes("[0.95, 0.93, 0.9]", level)), [1, 1, 2]);
+    assert!(scene("0.9").effects_at(Quality::Fast).contains(Effect::TableFree));
+}

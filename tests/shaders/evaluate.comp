@@ -34,9 +34,16 @@ void main() {
 #ifdef TABLE_SEPARATE
     float table_size = float(textureSize(sampler2DArray(table, table_sampler), 0).x);
     vec2 at = ltc_table_coordinates(surface, table_size);
-    vec4 shape = textureLod(sampler2DArray(table, table_sampler), vec3(at, 0.0), 0.0);
-    vec4 amplitude = textureLod(sampler2DArray(table, table_sampler), vec3(at, 1.0), 0.0);
-    LtcLobes lobes = ltc_lobes_of(surface, ltc_lobe(surface, shape, amplitude));
+#define TEXEL(layer) textureLod(sampler2DArray(table, table_sampler), vec3(at, layer), 0.0)
+#if LOBES == 3
+    LtcLobes lobes = ltc_three_lobes(surface, TEXEL(0.0), TEXEL(1.0), TEXEL(2.0), TEXEL(3.0), TEXEL(4.0));
+#elif LOBES == 2
+    LtcLobes lobes = ltc_two_lobes(surface, TEXEL(0.0), TEXEL(1.0), TEXEL(2.0));
+#elif defined(TABLE_FREE)
+    LtcLobes lobes = ltc_lobes_of(surface, ltc_lobe_fitted(surface));
+#else
+    LtcLobes lobes = ltc_lobes_of(surface, ltc_lobe(surface, TEXEL(0.0), TEXEL(1.0)));
+#endif
 #else
     LtcLobes lobes = ltc_lobes_from_table(surface, table, float(textureSize(table, 0).x), 0);
 #endif

@@ -110,6 +110,7 @@ impl Level {
         let total = |models: &[Quadratic<D>], field: &Field<D>| {
             models.iter().map(|model| model.loss).sum::<f64>() + smoothness.loss(field)
         };
+        field.iter_mut().enumerate().for_each(|(texel, numbers)| self.round::<N, D>(texel, numbers));
         let indices = 0..self.places.len();
         let mut damping = vec![1e-2; field.len()];
         let mut models: Vec<_> =
@@ -182,6 +183,16 @@ impl Level {
         }
     }
 
+    /// Makes lobes round where the view is along the normal: there the azimuth of the view means nothing, and light must
+    /// not depend on it.
+    fn round<const N: usize, const D: usize>(&self, texel: usize, numbers: &mut [f64; D]) {
+        if texel / self.size == self.size - 1 {
+            for i in 0..N {
+                numbers[5 * i] = 0.0;
+            }
+        }
+    }
+
     /// A texel's numbers less a step, of which only as much is taken as keeps lobes alike.
     fn moved<const N: usize, const D: usize>(
         &self,
@@ -199,6 +210,7 @@ impl Level {
         while factor > 1e-4 {
             let mut numbers: [f64; D] = core::array::from_fn(|k| from[k] - factor * step[k]);
             limit::<N, D>(&mut numbers, self.amplitudes[texel][0]);
+            self.round::<N, D>(texel, &mut numbers);
             let new = self.lobes::<N, D>(texel, &numbers);
             if old.iter().zip(&new).all(|(old, new)| alike(old, new)) {
                 return numbers;
