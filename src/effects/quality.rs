@@ -82,8 +82,6 @@ impl Quality {
             Self::Finest => {
                 ErrorBound { diffuse: 1e-6, specular: 0.0046, fresnel: 0.025, dielectric: 0.0176 }
             }
-            Self::Fine => ErrorBound { diffuse: 1e-6, specular: 0.0075, fresnel: 0.028, dielectric: 0.021 },
-            Self::Finest => ErrorBound { diffuse: 1e-6, specular: 0.0048, fresnel: 0.024, dielectric: 0.018 },
         }
     }
 

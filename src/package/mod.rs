@@ -4,7 +4,9 @@ mod guide;
 
 use std::path::Path;
 
-use crate::effects::{self, Effects, EffectsError};
+use glam::DVec3;
+
+use crate::effects::{self, Effect, Effects, EffectsError};
 use crate::fit::{self, Family, Layout, Settings};
 use crate::folder;
 use crate::report::{self, Accuracy, REGIONS, Technique};
@@ -76,6 +78,14 @@ pub enum PackageError {
     /// The include lacks an effect.
     #[error(transparent)]
     Effects(#[from] EffectsError),
+    /// A closed form for a model that it is not of.
+    #[error(
+        "the set \"{effects}\" has a closed form in place of the table, which is that of GGX with height-correlated masking; leave table-free out or bake that model"
+    )]
+    TableFree {
+        /// The set.
+        effects: Effects,
+    },
     /// Anisotropic surfaces in a table that cannot have them.
     #[error(
         "the set \"{effects}\" has anisotropic surfaces, whose layers have {} texels along each axis, not {size}; leave the table's size at that or anisotropic out",
@@ -125,11 +135,11 @@ pub fn build(
         let mut written = vec![(name.to_owned(), table.clone())];
         if technique == Technique::Include {
             match contents.effects {
-                Some(effects) => written[0].1 = with_layers(table.clone(), effects, progress)?,
+                Some(effects) => written[0].1 = with_layers(table.clone(), family, effects, progress)?,
                 None if size == crate::TABLE_SIZE => {
                     written.push((
                         format!("{name}_all"),
-                        with_layers(table.clone(), Effects::standing(), progress)?,
+                        with_layers(table.clone(), family, Effects::standing(), progress)?,
                     ));
                     written.push((format!("{name}_two_lobes"), Table::two_lobes()));
                     written.push((format!("{name}_three_lobes"), Table::three_lobes()));
@@ -144,11 +154,22 @@ pub fn build(
             }
         }
         if contents.quads > 0 {
+            let effects = contents.effects.unwrap_or_else(Effects::standing);
+            let (table, technique) = match technique {
+                Technique::Include
+                    if effects.has_lobe() && !effects.layers().is_empty() && contents.effects.is_some() =>
+                {
+                    (written[0].1.clone(), Technique::With(effects))
+                }
+                Technique::Include => (table, Technique::With(effects)),
+                Technique::With(_) => (table, technique),
+                Technique::Published => (table, technique),
+            };
             let measured = measure(&table, technique, family, contents.quads, &|share| {
                 progress(Step::Measure(layout), share);
             });
             match technique {
-                Technique::Include => package.native = Some(measured),
+                Technique::Include | Technique::With(_) => package.native = Some(measured),
                 Technique::Published => package.compatible = Some(measured),
             }
         }
@@ -207,14 +228,24 @@ pub fn write_folder(package: &Package, folder: &Path) -> Result<(), WriteError> 
 
 /// A table with the further layers that `effects` need. Those of the embedded size are embedded, too.
 fn with_layers(
-    table: Table,
+    mut table: Table,
+    family: &dyn Family,
     effects: Effects,
     progress: &(dyn Fn(Step, f64) + Sync),
 ) -> Result<Table, PackageError> {
     let (size, layers) = (table.size(), effects.layers());
+    if effects.contains(Effect::TableFree) && !is_default(family) {
+        return Err(PackageError::TableFree { effects });
+    }
+    if effects.contains(Effect::SecondLobe) && !(size == crate::TABLE_SIZE && is_default(family)) {
+        let count = if effects.contains(Effect::ThirdLobe) { 3 } else { 2 };
+        let lobes =
+            fit::bake_lobes(family, count, size, &|share| progress(Step::Bake(Layout::Native), share));
+        table = table.with(&Table::pack_lobes(&lobes));
+    }
+    let only = |table: Table| if layers.is_empty() { table } else { table.only(&layers) };
     if size == crate::TABLE_SIZE {
-        let whole = table.completed(&layers);
-        return Ok(if layers.is_empty() { whole } else { whole.only(&layers) });
+        return Ok(only(table.completed(&layers)));
     }
     if layers.contains(&Layer::AnisotropicFirst) {
         return Err(PackageError::Anisotropic { effects, size });
@@ -223,11 +254,22 @@ fn with_layers(
         let layout = settings.layout;
         Table::pack(&fit::bake(family, settings, &|share| progress(Step::Bake(layout), share)))
     };
-    Ok(layers.into_iter().fold(table, |table, layer| match layer {
+    Ok(only(layers.iter().fold(table, |table, layer| match layer {
         Layer::Sheen => table.with(&bake(Settings::sheen(size), &fit::sheen)),
         Layer::Diffuse => table.with(&bake(Settings::diffuse(size), &fit::diffuse)),
         _ => table,
-    }))
+    })))
+}
+
+/// Whether a family is GGX with height-correlated Smith masking, which the embedded lobes and the closed form are of.
+fn is_default(family: &dyn Family) -> bool {
+    let directions = [DVec3::new(0.6, 0.0, 0.8), DVec3::new(-0.48, 0.6, 0.64), DVec3::new(0.0, -0.96, 0.28)];
+    [0.2, 0.5, 0.9].iter().all(|roughness| {
+        let (own, ggx) = (family.at(*roughness), fit::ggx(*roughness));
+        directions.iter().all(|view| {
+            directions.iter().all(|light| own.evaluate(*view, *light) == ggx.evaluate(*view, *light))
+        })
+    })
 }
 
 /// Measures a table in every region.

@@ -3,9 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::effects::Effects;
 use crate::fit::Family;
 use crate::lobe::Lobe;
-use crate::shade::{Vector, ltc_pentagon, ltc_quad, ltc_surface};
+use crate::shade::{Vector, ltc_fast_quad, ltc_pentagon, ltc_quad, ltc_surface};
 use crate::table::Table;
 use crate::truth;
 
@@ -25,6 +26,8 @@ pub struct Quad {
 pub enum Technique {
     /// As the include does it, with a table in the native layout.
     Include,
+    /// As the include does it with some effects, with a table that has their layers.
+    With(Effects),
     /// As published (Heitz et al. 2016): light is cut at the lobe's horizon alone, and Schlick's part
     /// is a constant share of the whole. For a table in the compatible layout.
     Published,
@@ -117,6 +120,16 @@ pub fn shade(table: &Table, technique: Technique, quad: &Quad) -> [f64; 2] {
         Technique::Include => {
             let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, quad.view, quad.roughness);
             let value = ltc_quad(&surface, &table.lobe(&surface), quad.corners, false);
+            [value.y(), value.z()]
+        }
+        Technique::With(effects) => {
+            let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, quad.view, quad.roughness);
+            let lobes = table.specular(&surface, effects);
+            let value = if effects.is_fast() {
+                ltc_fast_quad(&surface, &lobes, quad.corners, false)
+            } else {
+                ltc_quad(&surface, &lobes, quad.corners, false)
+            };
             [value.y(), value.z()]
         }
         Technique::Published => {

@@ -45,7 +45,7 @@ impl TableMethod {
         let (table, technique) = read_table(path)?;
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let used = match technique {
-            Technique::Include => "the include",
+            Technique::Include | Technique::With(_) => "the include",
             Technique::Published => "the published technique with an exact cut at the lobe's horizon",
         };
         let info = MethodInfo {
@@ -65,7 +65,7 @@ impl Method for TableMethod {
 
     fn value(&self, quad: &Quad) -> [f64; 3] {
         match self.technique {
-            Technique::Include => {
+            Technique::Include | Technique::With(_) => {
                 let (up, view) = (DVec3::Z.as_vec3(), quad.view.as_vec3());
                 let surface = ltc_surface::<f32>(glam::Vec3::ZERO, up, view, quad.roughness as f32);
                 let corners = quad.corners.map(|corner| corner.as_vec3());
