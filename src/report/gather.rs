@@ -6,13 +6,13 @@ use glam::DVec3;
 
 use super::compare::{Level, Truth, comparators};
 use super::costs::{self, CostsError, Kernel};
-use super::data::{MethodInfo, Origin, Report};
+use super::data::{MethodInfo, Origin, PictureRow, Report};
 use super::errors::{
     self, Effort, ErrorSet, LevelSteps, MapSet, MapSettings, PictureError, PictureLevel, StandardSteps,
     TableFileError, TableMethod, cosine_density,
 };
 use super::method::Method;
-use super::page::{LOBE_SIGHTS, LobePlot, PageError, PictureFile, lobe_plots, read_pictures};
+use super::page::{LOBE_SIGHTS, LobePlot, PageError, PictureFile, read_pictures};
 use crate::device::{Device, DeviceError};
 use crate::effects::{Effect, Effects, Quality};
 use crate::fit;
@@ -153,16 +153,15 @@ fn lobes_at(level: &Level, roughness: f64, cosine: f64) -> (DVec3, Vec<LtcLobe<f
 }
 
 fn plots(levels: &[Level]) -> Vec<LobePlot> {
-    let mut plots = lobe_plots(&Table::default());
-    for (roughness, cosine) in LOBE_SIGHTS {
-        for level in levels.iter().filter(|level| level.quality() != Quality::Standard) {
+    let sight = |(roughness, cosine)| {
+        let level = move |level: &Level| {
             let (_, lobes) = lobes_at(level, roughness, cosine);
             let count = ["one lobe", "two lobes", "three lobes"][lobes.len() - 1];
-            let label = format!("{count} ({})", level.quality());
-            plots.push(LobePlot::lobes(&label, roughness, cosine, lobes));
-        }
-    }
-    plots
+            LobePlot::lobes(&format!("{count} ({})", level.quality()), roughness, cosine, lobes)
+        };
+        [LobePlot::ggx(roughness, cosine)].into_iter().chain(levels.iter().map(level))
+    };
+    LOBE_SIGHTS.into_iter().flat_map(sight).collect()
 }
 
 /// Of the level of one lobe every cause; of the others what the model and what single precision adds.
@@ -229,6 +228,15 @@ fn draw(
                 progress("rendered scenes", from + 0.11 * share);
             },
         )?;
+        report.pictures.push(PictureRow {
+            method: Truth::default().info().name,
+            scene: name.to_owned(),
+            rmse: 0.0,
+            mean: 0.0,
+            picture: format!("{name}-truth.png"),
+            difference: String::new(),
+            origin,
+        });
         report.pictures.extend(rows);
     }
     Ok(read_pictures(report, Path::new(&settings.scratch))?)

@@ -272,13 +272,19 @@ pub fn growing_programs() -> Result<Vec<Program>, CostsError> {
     Ok(programs)
 }
 
-/// Curves of what a compiler for `family` makes of [`growing_programs`].
+/// Whether the code of a set has a loop over lobes or vertices, of which a compiler guesses how often it turns.
+fn is_guessed(set: &str) -> bool {
+    ["second-lobe", "polygon"].iter().any(|looping| set.contains(looping))
+}
+
+/// Curves of what a compiler for `family` makes of [`growing_programs`], without those whose loops it guesses at.
 pub fn compiled_growth(family: &str, costs: &[Cost]) -> Vec<GrowthCurve> {
     let y_label = format!("{family} inverse throughput, cycles");
     let mut costs = costs.iter().map(|cost| cost.inverse_throughput as f64);
     let mut curves = Vec::new();
     for (chart, sets) in named_sets() {
-        let y = costs.by_ref().take(sets.len()).collect();
+        let pairs = sets.iter().copied().zip(costs.by_ref().take(sets.len()));
+        let (sets, y) = pairs.filter(|((_, set), _)| !is_guessed(set)).unzip();
         curves.push(by_name(chart, family, &y_label, &sets, y));
     }
     for (name, _) in SHARED {

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::effects::{Effects, Quality};
+use crate::effects::{Effect, Effects, Quality};
 use crate::report::compare;
 use crate::{TABLE_SIZE, WGSL_INCLUDE};
 
@@ -73,8 +73,12 @@ impl Kernel {
         format!("{}\n{MEASURE}", self.method)
     }
 
-    /// Whether the method has loops of its own, of which a compiler that runs nothing can only guess how often they turn.
+    /// Whether the method has loops of its own, or asks the include for the one over several lobes, of which a compiler that
+    /// runs nothing can only guess how often they turn.
     pub fn has_loops(&self) -> bool {
+        if self.effects.contains(Effect::SecondLobe) {
+            return true;
+        }
         let own = self.method.strip_prefix(WGSL_INCLUDE).unwrap_or(&self.method);
         ["for (", "while (", "loop {"].iter().any(|word| own.contains(word))
     }
@@ -103,6 +107,7 @@ mod tests {
         assert!(count == names.len() && count >= 12, "{names:?}");
         let standard = Kernel::of("standard").expect("a level");
         assert!(!standard.has_loops(), "the include's loops are not the method's");
+        assert!(Kernel::of("fine").expect("a level").has_loops(), "one over lobes");
         assert!(Kernel::own("looping", "for (var i = 0; i < 3; i++) {}", Vec::new()).has_loops());
         assert_eq!(standard.layers(), 2);
     }

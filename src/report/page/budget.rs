@@ -24,11 +24,17 @@ fn by_method(report: &Report, part: Part) -> Vec<(usize, Vec<&BudgetRow>)> {
     methods.filter(|(_, rows)| !rows.is_empty()).collect()
 }
 
-/// Causes other than the total, in the order of the report.
-fn causes(report: &Report) -> Vec<&str> {
+/// Shares below this are drawn at it.
+const LEAST: f64 = 1e-8;
+
+/// Causes other than the total that a part has, in the order in which the method with the most of them adds them.
+fn causes(report: &Report, part: Part) -> Vec<&str> {
+    let mut methods = by_method(report, part);
+    methods.sort_by_key(|(_, rows)| core::cmp::Reverse(rows.len()));
     let mut causes = Vec::new();
-    for row in &report.budget {
-        if row.cause != TOTAL && !causes.contains(&row.cause.as_str()) {
+    for row in methods.into_iter().flat_map(|(_, rows)| rows) {
+        let counts = row.cause != TOTAL && (row.alone > 0.0 || row.added != 0.0);
+        if counts && !causes.contains(&row.cause.as_str()) {
             causes.push(&row.cause);
         }
     }
@@ -39,7 +45,7 @@ fn causes(report: &Report) -> Vec<&str> {
 pub(super) fn stacked(report: &Report, part: Part) -> String {
     const BAR: f64 = 30.0;
     let methods = by_method(report, part);
-    let causes = causes(report);
+    let causes = causes(report, part);
     let colour =
         |cause: &str| STACK[causes.iter().position(|known| *known == cause).unwrap_or(0) % STACK.len()];
     let (key, lines) =
@@ -57,7 +63,10 @@ pub(super) fn stacked(report: &Report, part: Part) -> String {
         .iter()
         .flat_map(|(_, rows)| [sum(rows, 1.0), -sum(rows, -1.0), total(rows).unwrap_or(0.0)])
         .collect::<Vec<_>>();
-    let x = Scale::linear(extents.into_iter(), left, right);
+    // A sliver on the other side of zero needs no axis of its own.
+    let most = extents.iter().copied().fold(0.0, f64::max);
+    let axis: Vec<f64> = extents.into_iter().filter(|extent| *extent > -0.01 * most).collect();
+    let x = Scale::linear(axis.iter().copied(), left, right);
     let title = format!("Where the error comes from: {}", part.name());
     let content = html! {
         (text(12.0, 20.0, "start", &title))
@@ -105,7 +114,7 @@ fn segments<'a>(rows: &[&'a BudgetRow]) -> Vec<(f64, f64, &'a BudgetRow)> {
 /// Each cause alone, on a logarithmic axis, because causes span many powers of ten.
 pub(super) fn alone(report: &Report, part: Part) -> String {
     let methods = by_method(report, part);
-    let causes: Vec<&str> = causes(report).into_iter().chain([TOTAL]).collect();
+    let causes: Vec<&str> = causes(report, part).into_iter().chain([TOTAL]).collect();
     let room = causes.iter().map(|cause| text_width(cause, FONT)).fold(0.0, f64::max);
     let [left, right] = [room + 24.0, WIDTH - 16.0];
     let labels: Vec<&str> =
@@ -118,7 +127,7 @@ pub(super) fn alone(report: &Report, part: Part) -> String {
     let lane = (40.0 / methods.len().max(1) as f64).clamp(5.0, 9.0);
     let row_height = lane * methods.len() as f64 + 10.0;
     let bottom = top + row_height * causes.len() as f64;
-    let values = methods.iter().flat_map(|(_, rows)| rows.iter().map(|row| row.alone));
+    let values = methods.iter().flat_map(|(_, rows)| rows.iter().map(|row| if row.alone > 0.0 { row.alone.max(LEAST) } else { 0.0 }));
     let x = Scale::logarithmic(values, left, right);
     let title = format!("Each cause alone: {}", part.name());
     let content = html! {
@@ -138,7 +147,7 @@ pub(super) fn alone(report: &Report, part: Part) -> String {
                 @for row in rows.iter().filter(|row| row.cause == *cause && row.alone > 0.0) {
                     g class="point" tabindex="0" {
                         title { (report.methods[*method].label) "\n" (cause) " alone: " (percent(row.alone)) }
-                        (Look::of(*method).marker(x.place(row.alone), start + 5.0 + lane * (rank as f64 + 0.5), 4.0, false))
+                        (Look::of(*method).marker(x.place(row.alone.max(LEAST)), start + 5.0 + lane * (rank as f64 + 0.5), 4.0, false))
                     }
                 }
             }

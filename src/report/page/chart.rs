@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::frontier::frontier;
 use super::label::{Anchor, Bounds, place};
+use super::measure::{Measure, measures};
 use super::number::{figure, percent, signed_percent};
 use super::scale::Scale;
 use super::svg::{FAINT, FONT, Frame, KEY_LINE, Look, WIDTH, document, key, line, path, text, text_width};
@@ -20,33 +21,13 @@ pub(super) struct Point<'a> {
     pub best: bool,
 }
 
-/// A kind of cost: what was measured, and in which stage of a pipeline.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Measure<'a> {
-    pub measure: &'a str,
-    pub stage: &'a str,
-}
+/// Mean errors that are drawn: below the first only roundings are compared; beyond the last a method is of no use, and
+/// the rest would be squeezed together.
+const DRAWN: [f64; 2] = [1e-5, 1.0];
 
-impl Measure<'_> {
-    pub fn name(&self) -> String {
-        if self.stage.is_empty() {
-            self.measure.to_owned()
-        } else {
-            format!("{}, {}", self.measure, self.stage)
-        }
-    }
-}
-
-/// Kinds of costs in the order of the report.
-pub(super) fn measures(report: &Report) -> Vec<Measure<'_>> {
-    let mut measures = Vec::new();
-    for row in &report.costs {
-        let measure = Measure { measure: &row.measure, stage: &row.stage };
-        if !measures.contains(&measure) {
-            measures.push(measure);
-        }
-    }
-    measures
+/// A mean error as it is drawn and compared.
+fn drawn(error: &ErrorRow) -> f64 {
+    error.mean.clamp(DRAWN[0], DRAWN[1])
 }
 
 /// The methods that have both a cost of a kind and an error, above zero each, in the order of the report.
@@ -64,7 +45,7 @@ pub(super) fn points<'a>(report: &'a Report, measure: Measure, part: Part) -> Ve
             shown.then_some(Point { method, cost, error, best: false })
         })
         .collect();
-    let pairs: Vec<[f64; 2]> = points.iter().map(|point| [point.cost.ratio, point.error.mean]).collect();
+    let pairs: Vec<[f64; 2]> = points.iter().map(|point| [point.cost.ratio, point.error.mean.max(DRAWN[0])]).collect();
     for index in frontier(&pairs) {
         points[index].best = true;
     }
@@ -88,7 +69,7 @@ pub fn chart_svg(report: &Report, measure: &str, part: Part) -> Option<String> {
 pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Point]) -> String {
     const HEIGHT: f64 = 420.0;
     let costs = points.iter().map(|point| point.cost.ratio);
-    let errors = points.iter().map(|point| point.error.mean);
+    let errors = points.iter().map(|point| drawn(point.error));
     let (legend, lines) = legend();
     let [left, right, top, bottom] = [58.0, WIDTH - 12.0, 38.0 + KEY_LINE * lines, HEIGHT - 48.0];
     // Both axes show ratios as lengths: twice as dear is as far everywhere.
@@ -97,11 +78,15 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
     let frame = Frame { x, y };
     let steps = steps(&frame, points);
     let label = |point: &Point| report.methods[point.method].label.clone();
+    // What lies beyond the edge says how far.
+    let beyond = |point: &Point| {
+        if point.error.mean > DRAWN[1] { format!(" ↑ {}", percent(point.error.mean)) } else { String::new() }
+    };
     let anchors: Vec<Anchor> = points
         .iter()
         .map(|point| {
-            let [x, y] = frame.place(point.cost.ratio, point.error.mean);
-            Anchor { x, y, radius: 7.5, width: text_width(&label(point), FONT) + 2.0, height: FONT + 2.0 }
+            let [x, y] = frame.place(point.cost.ratio, drawn(point.error));
+            Anchor { x, y, radius: 7.5, width: text_width(&(label(point) + &beyond(point)), FONT) + 2.0, height: FONT + 2.0 }
         })
         .collect();
     let lines: Vec<[f64; 4]> =
@@ -109,9 +94,12 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
     let area = Bounds { left: left + 2.0, top: top + 1.0, right: right - 1.0, bottom: bottom - 2.0 };
     let labels = place(&anchors, area, &lines);
     let one = x.place(1.0);
-    let name = format!("Error against cost: {}, {}", part.name(), measure.name());
+    let name = format!("Error against cost: {}, {}", part.name(), measure.said());
+    // Those of the frontier lie above the others.
+    let mut marked: Vec<(&Point, &Anchor)> = points.iter().zip(&anchors).collect();
+    marked.sort_by_key(|(point, _)| point.best);
     let content = html! {
-        (frame.axes(&format!("{} / published method (×)", measure.name()), "mean |error| / mean value (%)", 100.0))
+        (frame.axes(&format!("{} / published method (×)", measure.said()), "mean |error| / mean value (%)", 100.0))
         (line([one, top, one, bottom], "#bbb", 1.2))
         (text(14.0, 20.0, "start", &format!("Error against cost: {}", part.name())))
         (legend)
@@ -119,7 +107,7 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
         @for label in &labels {
             @if let Some(leader) = label.leader { (line(leader, FAINT, 0.8)) }
         }
-        @for (point, anchor) in points.iter().zip(&anchors) {
+        @for (point, anchor) in marked {
             g class="point" tabindex="0" {
                 title { (hover(&label(point), point, part)) }
                 circle cx=(anchor.x) cy=(anchor.y) r="14" fill="transparent" {}
@@ -130,7 +118,10 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
             @let bounds = placed.bounds;
             g font-weight=(if report.methods[point.method].kind == Kind::Level { "bold" } else { "normal" }) {
                 text class="label" x=(super::svg::at(0.5 * (bounds.left + bounds.right))) y=(super::svg::at(bounds.bottom - 4.0))
-                    text-anchor="middle" stroke="#fff" stroke-width="2.5" paint-order="stroke" { (label(point)) }
+                    text-anchor="middle" stroke="#fff" stroke-width="2.5" paint-order="stroke" {
+                        (label(point))
+                        @if point.error.mean > DRAWN[1] { tspan font-weight="normal" { (beyond(point)) } }
+                    }
             }
         }
     };
@@ -140,7 +131,7 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
 /// The boundary of what can be had: for each cost the least error of the methods that cost no more.
 fn steps(frame: &Frame, points: &[Point]) -> Vec<[f64; 2]> {
     let mut best: Vec<[f64; 2]> =
-        points.iter().filter(|point| point.best).map(|point| [point.cost.ratio, point.error.mean]).collect();
+        points.iter().filter(|point| point.best).map(|point| [point.cost.ratio, drawn(point.error)]).collect();
     best.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut steps = Vec::new();
     let [_, right, top, _] = frame.edges();

@@ -12,7 +12,7 @@ use super::svg::{
 use crate::report::data::{GrowthCurve, Report};
 
 /// Most of the width that labels behind the lines may take.
-const LABELS: f64 = 170.0;
+const LABELS: f64 = 200.0;
 
 /// The look of a curve, that of its method where it has one.
 fn look(report: &Report, curve: &GrowthCurve, index: usize) -> Look {
@@ -99,12 +99,20 @@ fn bars(report: &Report, curves: &[&GrowthCurve], title: &str) -> String {
     let [left, right] = [room + 34.0, WIDTH - 66.0];
     let x = Scale::linear(curves.iter().flat_map(|curve| curve.y.iter().copied()), left, right);
     let zero = x.place(0.0);
+    // Numbers that would touch are left out.
+    let ticks = x.ticks();
+    let widest =
+        ticks.iter().map(|value| text_width(&super::number::tick(*value), FONT)).fold(0.0, f64::max);
+    let apart = (right - left) / ticks.len().saturating_sub(1).max(1) as f64;
+    let stride = ((widest + 6.0) / apart).ceil().max(1.0) as usize;
     let content = html! {
         (text(12.0, 20.0, "start", title))
         (key)
-        @for value in x.ticks() {
-            (line([x.place(value), top, x.place(value), bottom], GRID, 1.0))
-            (small_text(x.place(value), bottom + 16.0, "middle", FAINT, &super::number::tick(value)))
+        @for (index, value) in ticks.iter().enumerate() {
+            (line([x.place(*value), top, x.place(*value), bottom], GRID, 1.0))
+            @if index % stride == 0 {
+                (small_text(x.place(*value), bottom + 16.0, "middle", FAINT, &super::number::tick(*value)))
+            }
         }
         @for (row, name) in names.iter().enumerate() {
             @let start = top + group * row as f64;

@@ -104,6 +104,7 @@ impl Table {
 /// How many figures stand side by side on a wide screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Columns {
+    One,
     Two,
     Three,
 }
@@ -124,4 +125,18 @@ pub(super) enum Block {
     Pictures(Vec<Vec<Picture>>),
     /// What reproduces the figures above.
     Origins(Vec<Origin>),
+}
+
+/// Commands, each once, with the devices that they ran on and the seeds.
+pub(super) fn by_command(origins: &[Origin]) -> Vec<(&str, String)> {
+    let mut commands: Vec<(&str, Vec<String>)> = Vec::new();
+    for origin in origins {
+        let seed = if origin.seed.is_empty() { String::new() } else { format!(" (seed {})", origin.seed) };
+        let device = origin.device.clone() + &seed;
+        match commands.iter_mut().find(|(command, _)| *command == origin.command) {
+            Some((_, devices)) => devices.push(device),
+            None => commands.push((&origin.command, vec![device])),
+        }
+    }
+    commands.into_iter().map(|(command, devices)| (command, devices.join("; "))).collect()
 }

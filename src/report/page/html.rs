@@ -4,7 +4,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use super::document::{Block, Cell, Columns, Figure, Picture, Table};
+use super::document::{Block, Cell, Columns, Figure, Picture, Table, by_command};
 use super::number::slug;
 use crate::report::data::Origin;
 
@@ -53,7 +53,7 @@ fn block(block: &Block) -> Markup {
             Block::Text(text) => p { (inline(text)) },
             Block::Table(table) => (self::table(table)),
             Block::Figures(columns, figures) => {
-                div class=(match columns { Columns::Two => "charts", Columns::Three => "charts small" }) {
+                div class=(match columns { Columns::One => "charts large", Columns::Two => "charts", Columns::Three => "charts small" }) {
                     @for figure in figures { (chart(figure)) }
                 }
             },
@@ -73,7 +73,7 @@ fn block(block: &Block) -> Markup {
                 }
             },
             Block::Origins(origins) => {
-                @for origin in origins { (self::origin(origin)) }
+                (self::origins(origins))
             },
         }
     }
@@ -83,17 +83,22 @@ fn chart(figure: &Figure) -> Markup {
     html! {
         figure {
             (PreEscaped(&figure.svg))
-            @if let Some(origin) = &figure.origin { (self::origin(origin)) }
+            @if let Some(origin) = &figure.origin { (origins(std::slice::from_ref(origin))) }
         }
     }
 }
 
-fn origin(origin: &Origin) -> Markup {
+/// All origins in one paragraph; what several have in common is said once.
+fn origins(origins: &[Origin]) -> Markup {
     html! {
         p class="origin" {
-            @if !origin.command.is_empty() { code { (origin.command) } " · " }
-            (origin.device)
-            @if !origin.seed.is_empty() { " · seed " (origin.seed) }
+            "Origin: "
+            @for (index, (command, devices)) in by_command(origins).into_iter().enumerate() {
+                @if index > 0 { "; " }
+                @if !command.is_empty() { code { (command) } " · " }
+                (devices)
+            }
+            "."
         }
     }
 }

@@ -17,16 +17,18 @@ fn hex([red, green, blue]: [u8; 3]) -> String {
     format!("#{red:02x}{green:02x}{blue:02x}")
 }
 
-/// Bounds of a common scale for some maps, at most three powers of ten apart.
+/// Bounds of a common scale for some maps, at most three powers of ten apart: few cells lie beyond, and none counts whose
+/// error exceeds the value itself, so that methods which are worth a look can be told apart.
 pub(super) fn bounds<'a>(maps: impl Iterator<Item = &'a ErrorMap>) -> [f64; 2] {
-    let values: Vec<f64> =
+    const MOST: f64 = 1.0;
+    let mut values: Vec<f64> =
         maps.flat_map(|map| map.values.iter().flatten()).copied().filter(|value| *value > 0.0).collect();
-    let high = values.iter().copied().fold(0.0, f64::max);
-    if high == 0.0 {
+    values.sort_by(f64::total_cmp);
+    let Some(last) = values.len().checked_sub(1) else {
         return [1e-3, 1.0];
-    }
-    let high = rounded(high, true);
-    let low = rounded(values.into_iter().fold(high, f64::min), false);
+    };
+    let high = rounded(values[last - last / 100].min(MOST), true);
+    let low = rounded(values[last / 50].min(high), false);
     [low.max(rounded(1e-3 * high, false)).min(0.5 * high), high]
 }
 
@@ -59,6 +61,11 @@ pub(super) fn extremes(map: &ErrorMap) -> (f64, f64, [f64; 2]) {
     (mean, largest.0, largest.1)
 }
 
+/// Two decimals.
+fn short(value: f64) -> String {
+    tick((100.0 * value).round() / 100.0)
+}
+
 /// One map.
 pub(super) fn draw(map: &ErrorMap, title: &str, bounds: [f64; 2]) -> String {
     const SIDE: f64 = 340.0;
@@ -80,7 +87,7 @@ pub(super) fn draw(map: &ErrorMap, title: &str, bounds: [f64; 2]) -> String {
         let shade = share(value, bounds);
         html! {
             rect class="point" x=(at(ax.min(bx))) y=(at(ay.min(by))) width=(at((bx - ax).abs())) height=(at((by - ay).abs())) fill=(hex(colour(shade))) {
-                title { (title) "\nroughness " (tick(map.roughness[column])) ", cosine " (tick(map.cosine[row])) ": " (percent(value)) }
+                title { "roughness " (short(map.roughness[column])) ", cosine " (short(map.cosine[row])) ": " (percent(value)) }
             }
             @if wide {
                 (small_text(0.5 * (ax + bx), 0.5 * (ay + by) + 4.0, "middle", if shade > 0.6 { "#000" } else { "#fff" }, &percent(value)))
@@ -93,7 +100,7 @@ pub(super) fn draw(map: &ErrorMap, title: &str, bounds: [f64; 2]) -> String {
         g shape-rendering="crispEdges" {
             @for row in 0..map.cosine.len() { @for column in 0..map.roughness.len() { (cell(row, column)) } }
         }
-        (small_text(left, HEIGHT - 10.0, "start", FAINT, &format!("mean {}, largest {} at ({}, {})", percent(mean), percent(largest), tick(roughness), tick(cosine))))
+        (small_text(left, HEIGHT - 10.0, "start", FAINT, &format!("mean {}, largest {} at ({}, {})", percent(mean), percent(largest), short(roughness), short(cosine))))
     };
     document(SIDE, HEIGHT, title, &content)
 }

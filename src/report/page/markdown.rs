@@ -1,6 +1,6 @@
 //! The report as Markdown with its charts and pictures in files beside.
 
-use super::document::{Block, Picture, Table};
+use super::document::{Block, Picture, Table, by_command};
 use crate::report::data::Origin;
 
 /// The whole text, and the files that it shows.
@@ -34,7 +34,7 @@ impl Writer {
                 for figure in figures {
                     self.text += &format!("![{}]({})\n", escaped(&figure.title), figure.file);
                     self.file(&figure.file, figure.svg.as_bytes());
-                    self.text.extend(figure.origin.iter().map(|origin| format!("\n{}\n", said(origin))));
+                    self.text.extend(figure.origin.iter().map(|origin| format!("\n{}\n", said(std::slice::from_ref(origin)))));
                 }
             }
             Block::Choice(_, options) => {
@@ -45,8 +45,7 @@ impl Writer {
             }
             Block::Pictures(columns) => self.pictures(columns),
             Block::Origins(origins) => {
-                let lines: Vec<String> = origins.iter().map(|origin| format!("{}\n", said(origin))).collect();
-                self.text += &lines.join("\n");
+                self.text += &format!("{}\n", said(origins));
             }
         }
     }
@@ -75,12 +74,20 @@ impl Writer {
         let row = |cells: &mut dyn Iterator<Item = String>| {
             format!("| {} |\n", cells.collect::<Vec<_>>().join(" | "))
         };
-        self.text += &format!("{}\n\n", escaped(&table.caption));
+        if table.folded {
+            let caption = table.caption.replace('&', "&amp;").replace('<', "&lt;");
+            self.text += &format!("<details><summary>{caption}</summary>\n\n");
+        } else {
+            self.text += &format!("{}\n\n", escaped(&table.caption));
+        }
         self.text += &row(&mut table.columns.iter().map(|column| escaped(column)));
         let rule = |column| if table.is_numeric(column) { "---:" } else { "---" }.to_owned();
         self.text += &row(&mut (0..table.columns.len()).map(rule));
         for cells in &table.rows {
             self.text += &row(&mut cells.iter().map(|cell| escaped(&cell.text)));
+        }
+        if table.folded {
+            self.text += "\n</details>\n";
         }
     }
 
@@ -92,17 +99,13 @@ impl Writer {
     }
 }
 
-/// What reproduces a figure.
-fn said(origin: &Origin) -> String {
-    let command = match origin.command.as_str() {
-        "" => String::new(),
-        command => format!("`{command}` · "),
-    };
-    let seed = match origin.seed.as_str() {
-        "" => String::new(),
-        seed => format!(" · seed {}", escaped(seed)),
-    };
-    format!("_Origin:_ {command}{}{seed}", escaped(&origin.device))
+/// What reproduces figures.
+fn said(origins: &[Origin]) -> String {
+    let origins = by_command(origins).into_iter().map(|(command, devices)| match command {
+        "" => escaped(&devices),
+        command => format!("`{command}` · {}", escaped(&devices)),
+    });
+    format!("_Origin:_ {}", origins.collect::<Vec<_>>().join("; "))
 }
 
 /// A text that means in Markdown what it says, but for its code between backticks.

@@ -22,6 +22,7 @@ mod label;
 mod lobe;
 mod map;
 mod markdown;
+mod measure;
 mod number;
 mod scale;
 mod section;

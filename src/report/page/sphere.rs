@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use glam::{DVec2, DVec3};
-use image::{ExtendedColorType, ImageEncoder, codecs::png::PngEncoder};
+use image::{ExtendedColorType, ImageEncoder, codecs::png::{CompressionType, FilterType, PngEncoder}};
 use rayon::prelude::*;
 
 use super::map::colour;
@@ -76,7 +76,7 @@ fn picture(sample: impl Fn(DVec2) -> Sample + Sync) -> Vec<u8> {
         })
         .collect();
     let mut png = Cursor::new(Vec::new());
-    PngEncoder::new(&mut png)
+    PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive)
         .write_image(&bytes, SIZE as u32, SIZE as u32, ExtendedColorType::Rgba8)
         .expect("a picture in memory has the size of its bytes");
     png.into_inner()

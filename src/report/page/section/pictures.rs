@@ -15,6 +15,8 @@ use crate::report::data::{Origin, PictureRow, Report};
 const THUMBNAIL: u32 = 480;
 /// Of those, how many of a screen's; twice as fine screens have twice as many.
 const SHOWN: u32 = 372;
+/// Of a smaller picture, which is enlarged: four are side by side.
+const SMALL: u32 = 278;
 
 pub(super) fn lobes(report: &Report, plots: &[LobePlot]) -> Vec<Block> {
     let mut blocks = vec![
@@ -28,7 +30,7 @@ pub(super) fn lobes(report: &Report, plots: &[LobePlot]) -> Vec<Block> {
         Block::Pictures(lobe::cosines()),
     ];
     let drawn = Origin {
-        command: report.command.clone(),
+        command: String::new(),
         device: "drawn with the page, in double precision".to_owned(),
         seed: String::new(),
     };
@@ -109,18 +111,19 @@ pub(super) fn scenes(report: &Report, files: &[PictureFile]) -> Result<Vec<Block
     let mut blocks = vec![
         heading("Scenes"),
         text(
-            "Each method's rendering, and its difference from ground truth below. The error is the root mean square of the difference \
-         of linear radiance over the mean radiance. The page shows pictures reduced to 480 pixels across; beside it they are whole.",
+            "Each method's rendering, and its difference from ground truth below: yellow and orange are too bright, blue is too dark, full colours stand \
+         for 20 % of the mean luminance. RMSE is the root mean square of the difference of linear luminance over the mean \
+         luminance, of pixels that show surfaces. Pictures wider than 480 pixels are reduced on the page; beside it they are \
+         whole.",
         ),
     ];
     for scene in scenes {
         let rows: Vec<&PictureRow> = report.pictures.iter().filter(|row| row.scene == scene).collect();
         blocks.push(Block::Heading(3, format!("Scene {scene}")));
         let caption = |row: &PictureRow| {
-            vec![
-                label(report, &row.method),
-                format!("RMSE {}, mean |error| {}", percent(row.rmse), percent(row.mean)),
-            ]
+            let errors = format!("RMSE {}, mean |error| {}", percent(row.rmse), percent(row.mean));
+            let is_truth = row.rmse == 0.0 && row.difference.is_empty();
+            [label(report, &row.method)].into_iter().chain((!is_truth).then_some(errors)).collect::<Vec<_>>()
         };
         let column = |row: &&PictureRow| -> Result<Vec<Picture>, PageError> {
             let difference = vec![format!("{}: difference", label(report, &row.method))];
@@ -164,7 +167,7 @@ fn thumbnail(name: &str, caption: Vec<String>, files: &[PictureFile]) -> Result<
         small.write_to(&mut png, ImageFormat::Png).map_err(|error| refused(&error.to_string()))?;
         (png.into_inner(), SHOWN)
     } else {
-        (bytes.clone(), whole.width().min(SHOWN))
+        (bytes.clone(), if whole.width() < SHOWN { SMALL } else { SHOWN })
     };
     Ok(Picture { file: name.to_owned(), caption, png, width })
 }
