@@ -237,9 +237,49 @@ fn chart_has_every_method_that_was_measured() {
         let hollow = point.descendants().any(|node| node.attribute("fill") == Some("#fff"));
         assert_eq!(hollow, title.contains("cheaper and closer"), "{title}");
     }
+    // The chart that stands first has a name of its own, and nothing that a picture may not hold.
+    let first = text(&whole().2, "charts/error-cost.svg");
+    let made = chart_svg(&report, "navi21 inverse throughput", Part::Dielectric);
+    assert_eq!(Some(&first), made.as_ref());
+    for word in ["<script", "<foreignObject", "href", "url("] {
+        assert!(!first.contains(word), "{word}");
+    }
     assert_eq!(chart_svg(&report, "no such measure", Part::Specular), None);
     let fragment = chart_svg(&report, "navi21 instructions, fragment", Part::Specular);
     assert!(fragment.is_some_and(|fragment| fragment != svg));
+}
+
+#[test]
+fn useless_and_exact_methods_do_not_squeeze_a_chart() {
+    let (mut report, _) = report();
+    let height = |report: &Report, method: &str| {
+        let svg = chart_svg(report, "navi21 instructions", Part::Specular).expect("it was measured");
+        let parsed = roxmltree::Document::parse(&svg).expect("it is SVG");
+        let label =
+            report.methods.iter().find(|known| known.name == method).expect("it is there").label.clone();
+        let point = parsed.descendants().find(|node| {
+            let title = node.children().find(|child| child.has_tag_name("title"));
+            let said = title.and_then(|title| title.text()).unwrap_or_default();
+            said.starts_with(&format!("{label}\n"))
+        });
+        let circle = point.expect("it is drawn").descendants().find(|node| node.has_tag_name("circle"));
+        let height = circle.and_then(|circle| circle.attribute("cy")?.parse::<f64>().ok());
+        (height.expect("points have a place"), svg)
+    };
+    let mut set = |method: &str, mean: f64| {
+        let row = report
+            .errors
+            .iter_mut()
+            .find(|row| row.method == method && row.part == Part::Specular && row.stratum == "all");
+        row.expect("it is there").mean = mean;
+        height(&report, method)
+    };
+    let (edge, _) = set("representative", 1.0);
+    let (beyond, svg) = set("representative", 50.0);
+    assert_eq!(beyond, edge, "what lies beyond stays at the edge");
+    assert!(svg.contains("↑ 5000\u{202f}%"), "and says how far");
+    let (least, _) = set("fast", 1e-5);
+    assert_eq!(set("fast", 1e-9).0, least, "roundings are alike");
 }
 
 #[test]

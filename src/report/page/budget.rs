@@ -27,17 +27,24 @@ fn by_method(report: &Report, part: Part) -> Vec<(usize, Vec<&BudgetRow>)> {
 /// Shares below this are drawn at it.
 const LEAST: f64 = 1e-8;
 
-/// Causes other than the total that a part has, in the order in which the method with the most of them adds them.
-fn causes(report: &Report, part: Part) -> Vec<&str> {
-    let mut methods = by_method(report, part);
+/// Causes other than the total, in the order in which the method with the most of them adds them.
+fn all_causes(report: &Report) -> Vec<&str> {
+    let mut methods: Vec<_> = Part::ALL.into_iter().flat_map(|part| by_method(report, part)).collect();
     methods.sort_by_key(|(_, rows)| core::cmp::Reverse(rows.len()));
     let mut causes = Vec::new();
     for row in methods.into_iter().flat_map(|(_, rows)| rows) {
-        let counts = row.cause != TOTAL && (row.alone > 0.0 || row.added != 0.0);
-        if counts && !causes.contains(&row.cause.as_str()) {
+        if row.cause != TOTAL && !causes.contains(&row.cause.as_str()) {
             causes.push(&row.cause);
         }
     }
+    causes
+}
+
+/// Those that make a difference to a part.
+fn causes(report: &Report, part: Part) -> Vec<&str> {
+    let counts = |row: &&BudgetRow| row.part == part && (row.alone > 0.0 || row.added != 0.0);
+    let mut causes = all_causes(report);
+    causes.retain(|cause| report.budget.iter().filter(counts).any(|row| row.cause == *cause));
     causes
 }
 
@@ -46,8 +53,9 @@ pub(super) fn stacked(report: &Report, part: Part) -> String {
     const BAR: f64 = 30.0;
     let methods = by_method(report, part);
     let causes = causes(report, part);
-    let colour =
-        |cause: &str| STACK[causes.iter().position(|known| *known == cause).unwrap_or(0) % STACK.len()];
+    // A cause has one colour on all charts.
+    let all = all_causes(report);
+    let colour = |cause: &str| STACK[all.iter().position(|known| *known == cause).unwrap_or(0) % STACK.len()];
     let (key, lines) =
         key(&causes, [12.0, WIDTH - 8.0, 44.0], 17.0, &|index, x, y| key_box(colour(causes[index]), x, y));
     let top = 42.0 + KEY_LINE * lines;
@@ -65,7 +73,7 @@ pub(super) fn stacked(report: &Report, part: Part) -> String {
         .collect::<Vec<_>>();
     // A sliver on the other side of zero needs no axis of its own.
     let most = extents.iter().copied().fold(0.0, f64::max);
-    let axis: Vec<f64> = extents.into_iter().filter(|extent| *extent > -0.01 * most).collect();
+    let axis: Vec<f64> = extents.into_iter().filter(|extent| !(-0.03 * most..0.0).contains(extent)).collect();
     let x = Scale::linear(axis.iter().copied(), left, right);
     let title = format!("Where the error comes from: {}", part.name());
     let content = html! {
@@ -127,7 +135,9 @@ pub(super) fn alone(report: &Report, part: Part) -> String {
     let lane = (40.0 / methods.len().max(1) as f64).clamp(5.0, 9.0);
     let row_height = lane * methods.len() as f64 + 10.0;
     let bottom = top + row_height * causes.len() as f64;
-    let values = methods.iter().flat_map(|(_, rows)| rows.iter().map(|row| if row.alone > 0.0 { row.alone.max(LEAST) } else { 0.0 }));
+    let values = methods.iter().flat_map(|(_, rows)| {
+        rows.iter().map(|row| if row.alone > 0.0 { row.alone.max(LEAST) } else { 0.0 })
+    });
     let x = Scale::logarithmic(values, left, right);
     let title = format!("Each cause alone: {}", part.name());
     let content = html! {

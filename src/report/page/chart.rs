@@ -45,7 +45,8 @@ pub(super) fn points<'a>(report: &'a Report, measure: Measure, part: Part) -> Ve
             shown.then_some(Point { method, cost, error, best: false })
         })
         .collect();
-    let pairs: Vec<[f64; 2]> = points.iter().map(|point| [point.cost.ratio, point.error.mean.max(DRAWN[0])]).collect();
+    let pairs: Vec<[f64; 2]> =
+        points.iter().map(|point| [point.cost.ratio, point.error.mean.max(DRAWN[0])]).collect();
     for index in frontier(&pairs) {
         points[index].best = true;
     }
@@ -80,13 +81,23 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
     let label = |point: &Point| report.methods[point.method].label.clone();
     // What lies beyond the edge says how far.
     let beyond = |point: &Point| {
-        if point.error.mean > DRAWN[1] { format!(" ↑ {}", percent(point.error.mean)) } else { String::new() }
+        if point.error.mean > DRAWN[1] {
+            format!(" ↑ {}", percent(point.error.mean))
+        } else {
+            String::new()
+        }
     };
     let anchors: Vec<Anchor> = points
         .iter()
         .map(|point| {
             let [x, y] = frame.place(point.cost.ratio, drawn(point.error));
-            Anchor { x, y, radius: 7.5, width: text_width(&(label(point) + &beyond(point)), FONT) + 2.0, height: FONT + 2.0 }
+            Anchor {
+                x,
+                y,
+                radius: 7.5,
+                width: text_width(&(label(point) + &beyond(point)), FONT) + 2.0,
+                height: FONT + 2.0,
+            }
         })
         .collect();
     let lines: Vec<[f64; 4]> =
@@ -130,8 +141,11 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
 
 /// The boundary of what can be had: for each cost the least error of the methods that cost no more.
 fn steps(frame: &Frame, points: &[Point]) -> Vec<[f64; 2]> {
-    let mut best: Vec<[f64; 2]> =
-        points.iter().filter(|point| point.best).map(|point| [point.cost.ratio, drawn(point.error)]).collect();
+    let mut best: Vec<[f64; 2]> = points
+        .iter()
+        .filter(|point| point.best)
+        .map(|point| [point.cost.ratio, drawn(point.error)])
+        .collect();
     best.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let mut steps = Vec::new();
     let [_, right, top, _] = frame.edges();

@@ -101,8 +101,7 @@ fn bars(report: &Report, curves: &[&GrowthCurve], title: &str) -> String {
     let zero = x.place(0.0);
     // Numbers that would touch are left out.
     let ticks = x.ticks();
-    let widest =
-        ticks.iter().map(|value| text_width(&super::number::tick(*value), FONT)).fold(0.0, f64::max);
+    let widest = ticks.iter().map(|value| text_width(&super::number::tick(*value), FONT)).fold(0.0, f64::max);
     let apart = (right - left) / ticks.len().saturating_sub(1).max(1) as f64;
     let stride = ((widest + 6.0) / apart).ceil().max(1.0) as usize;
     let content = html! {

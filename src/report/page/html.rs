@@ -145,7 +145,7 @@ fn table(table: &Table) -> Markup {
 fn cell(cell: &Cell, numeric: bool) -> Markup {
     html! {
         @match cell.value {
-            Some(value) => td class="number" data-value=(value) title=(value) { (cell.text) },
+            Some(value) => td class="number" data-value=(value) { (cell.text) },
             None if cell.text.chars().count() > LONG => td class="long" { (inline(&cell.text)) },
             None => td class=[numeric.then_some("number")] { (inline(&cell.text)) },
         }

@@ -279,7 +279,9 @@ fn section(plots: &[&LobePlot], name: &str, heading: &str, difference: bool) -> 
         (text(14.0, 20.0, "start", heading))
         (key)
         (line([x.place(mirror), top, x.place(mirror), bottom], "#bbb", 1.2))
-        (small_text(x.place(mirror) + 4.0, top + 10.0, "start", FAINT, "mirror"))
+        g stroke="#fff" stroke-width="3" paint-order="stroke" {
+            (small_text(x.place(mirror) + 4.0, top + 10.0, "start", FAINT, "mirror"))
+        }
         (line([left, y.place(0.0), right, y.place(0.0)], FAINT, 0.8))
         @for (index, values) in &curves {
             path d=(path(angles.iter().zip(values).map(|(angle, value)| frame.place(*angle, *value)))) fill="none"

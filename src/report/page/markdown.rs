@@ -34,7 +34,12 @@ impl Writer {
                 for figure in figures {
                     self.text += &format!("![{}]({})\n", escaped(&figure.title), figure.file);
                     self.file(&figure.file, figure.svg.as_bytes());
-                    self.text.extend(figure.origin.iter().map(|origin| format!("\n{}\n", said(std::slice::from_ref(origin)))));
+                    self.text.extend(
+                        figure
+                            .origin
+                            .iter()
+                            .map(|origin| format!("\n{}\n", said(std::slice::from_ref(origin)))),
+                    );
                 }
             }
             Block::Choice(_, options) => {

@@ -8,6 +8,7 @@
 //! | `report.md` | the same as Markdown, with `charts/` and the pictures beside |
 //! | `report.json` | the [`Report`] itself |
 //! | `data/*.csv` | its lists |
+//! | `charts/error-cost.svg` | the first chart, to be shown elsewhere: `docs/error-cost.svg` is a copy |
 //!
 //! [`Report`]: crate::report::data::Report
 

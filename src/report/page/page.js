@@ -44,6 +44,8 @@ for (const choice of document.querySelectorAll(".choice")) {
   update();
 }
 
+for (const cell of document.querySelectorAll("td[data-value]")) cell.title = cell.dataset.value;
+
 for (const table of document.querySelectorAll("table")) {
   const body = table.tBodies[0];
   const original = [...body.rows];

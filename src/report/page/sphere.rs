@@ -3,7 +3,10 @@
 use std::io::Cursor;
 
 use glam::{DVec2, DVec3};
-use image::{ExtendedColorType, ImageEncoder, codecs::png::{CompressionType, FilterType, PngEncoder}};
+use image::{
+    ExtendedColorType, ImageEncoder,
+    codecs::png::{CompressionType, FilterType, PngEncoder},
+};
 use rayon::prelude::*;
 
 use super::map::colour;

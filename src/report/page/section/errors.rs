@@ -34,7 +34,9 @@ pub(super) fn glance(report: &Report) -> Vec<Block> {
     let rows = rows.map(|method| {
         let name = [Cell::text(&method.label)].into_iter();
         let errors = parts.iter().map(|part| error(report, &method.name, *part));
-        name.chain(errors).chain(measures.iter().map(|measure| ratio(report, &method.name, measure))).collect()
+        name.chain(errors)
+            .chain(measures.iter().map(|measure| ratio(report, &method.name, measure)))
+            .collect()
     });
     let caption = "Mean error, and cost as a multiple of the published method's".to_owned();
     blocks.push(Block::Table(Table { caption, columns, rows: rows.collect(), folded: false }));
@@ -155,9 +157,10 @@ fn all_costs(report: &Report, group: &str, members: &[Measure]) -> [Block; 2] {
     let table = |caption: &str, name: &dyn Fn(&Measure) -> String, cell: &dyn Fn(&CostRow) -> Cell| {
         let columns = members.iter().map(name);
         let columns = ["method".to_owned()].into_iter().chain(columns).collect();
-        let measured = report.methods.iter().filter(|method| {
-            members.iter().any(|member| cost(report, &method.name, member).is_some())
-        });
+        let measured = report
+            .methods
+            .iter()
+            .filter(|method| members.iter().any(|member| cost(report, &method.name, member).is_some()));
         let rows = measured.map(|method| {
             let cells =
                 members.iter().map(|member| cost(report, &method.name, member).map_or_else(Cell::none, cell));
@@ -248,7 +251,8 @@ fn strata(report: &Report, part: Part) -> Option<Block> {
         })
         .collect();
     (!rows.is_empty()).then(|| {
-        let caption = format!("Mean error by range of inputs (view: its cosine with the normal): {}", part.name());
+        let caption =
+            format!("Mean error by range of inputs (view: its cosine with the normal): {}", part.name());
         Block::Table(Table::new(&caption, &columns, rows).folded())
     })
 }
@@ -263,13 +267,18 @@ pub(super) fn causes(report: &Report) -> Vec<Block> {
             "What each cause adds to the mean error when causes are added one by one, from the lobe model down to single precision; an \
          upright mark is the error of the method itself, measured on its own. A cause that takes away stands left of zero. Since \
          causes span many powers of ten, further charts show each of them alone; what is below 10⁻⁶ % is drawn there. Where a \
-         method has no fit or horizon of its own, that is part of its lobe model.",
+         method has no fit or horizon of its own, that is part of its lobe model. These are fewer lights than those of the tables \
+         above, so that totals differ a little.",
         ),
     ];
     let parts = parts_of(|part| report.budget.iter().any(|row| row.part == part));
     let figures = |name: &str, title: &str, draw: &dyn Fn(&Report, Part) -> String| {
         let figure = |part: &Part| {
-            drawing(&format!("{name} {}", part.name()), format!("{title}: {}", part.name()), draw(report, *part))
+            drawing(
+                &format!("{name} {}", part.name()),
+                format!("{title}: {}", part.name()),
+                draw(report, *part),
+            )
         };
         Block::Figures(Columns::Two, parts.iter().map(figure).collect())
     };
@@ -312,11 +321,11 @@ pub(super) fn bias(report: &Report) -> Vec<Block> {
         (part.name().to_owned(), vec![Block::Table(Table::new(&caption, &columns, rows.collect()))])
     };
     let order = [Part::Specular, Part::Dielectric, Part::Fresnel, Part::Diffuse].into_iter();
-    let present =
-        |part: &Part| report.errors.iter().any(|row| row.part == *part && row.stratum == "all");
+    let present = |part: &Part| report.errors.iter().any(|row| row.part == *part && row.stratum == "all");
     let options: Vec<_> = order.filter(present).map(option).collect();
     let all = report.errors.iter().map(|row| {
-        let names = [label(report, &row.method), row.part.name().to_owned(), row.stratum.clone()].map(Cell::text);
+        let names =
+            [label(report, &row.method), row.part.name().to_owned(), row.stratum.clone()].map(Cell::text);
         names.into_iter().chain(cells(row)).collect()
     });
     let columns =

@@ -179,7 +179,14 @@ fn growth(report: &Report) -> Vec<Block> {
 }
 
 fn foot(report: &Report) -> Vec<Block> {
-    let rows = report.origins.iter().map(|origin| {
+    // Lists that were made alike share a row.
+    let mut known: Vec<&Origin> = Vec::new();
+    for origin in &report.origins {
+        if !known.contains(&origin) {
+            known.push(origin);
+        }
+    }
+    let rows = known.into_iter().map(|origin| {
         let command = if origin.command == report.command {
             Cell::text("that of this report")
         } else {
