@@ -74,8 +74,11 @@ pub(super) fn draw(report: &Report, measure: Measure, part: Part, points: &[Poin
     let (legend, lines) = legend();
     let [left, right, top, bottom] = [58.0, WIDTH - 12.0, 38.0 + KEY_LINE * lines, HEIGHT - 48.0];
     // Both axes show ratios as lengths: twice as dear is as far everywhere.
-    let x = Scale::logarithmic(costs.chain([1.0]), left, right);
-    let y = Scale::logarithmic(errors, bottom, top);
+    // On the left and above there is room for the labels of cheap and of bad methods.
+    let cheapest = costs.clone().fold(1.0, f64::min);
+    let x = Scale::logarithmic(costs.chain([1.0, 0.7 * cheapest]), left, right);
+    let worst = errors.clone().fold(0.0, f64::max);
+    let y = Scale::logarithmic(errors.chain([1.6 * worst]), bottom, top);
     let frame = Frame { x, y };
     let steps = steps(&frame, points);
     let label = |point: &Point| report.methods[point.method].label.clone();

@@ -63,7 +63,7 @@ fn ratio(report: &Report, method: &str, measure: &Measure) -> Cell {
 /// How charts of error against cost are read.
 const LEGEND: &str = "Each point is a method; names of quality levels are bold. The dashed steps are the frontier over all \
     methods: the least error that can be had for a cost. A hollow point lies behind it: another method is at least as cheap and \
-    as close. Both axes are logarithmic. Errors above 100\u{202f}% are drawn at the upper edge with their figure, those below 0.001\u{202f}%, \
+    as close. Both axes are logarithmic. Errors above 100\u{202f}% are drawn at 100\u{202f}% with their figure, those below 0.001\u{202f}%, \
     which are but roundings, at 0.001\u{202f}%.";
 
 pub(super) fn error_cost(report: &Report) -> Vec<Block> {
