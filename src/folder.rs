@@ -55,9 +55,7 @@ fn refused(path: &Path) -> impl FnOnce(io::Error) -> WriteError + use<> {
 /// If the folder holds anything but what is of that kind, or the operating system refuses.
 pub fn write(files: &[(String, Vec<u8>)], folder: &Path, kind: Kind) -> Result<(), WriteError> {
     let replaces = folder.exists();
-    if replaces {
-        check_replaceable(folder, kind)?;
-    }
+    check_replaceable(folder, kind)?;
     let parent = match folder.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
@@ -87,7 +85,10 @@ pub fn write(files: &[(String, Vec<u8>)], folder: &Path, kind: Kind) -> Result<(
 }
 
 /// Asserts that every file in `folder` is one that a folder of that kind has.
-fn check_replaceable(folder: &Path, kind: Kind) -> Result<(), WriteError> {
+pub fn check_replaceable(folder: &Path, kind: Kind) -> Result<(), WriteError> {
+    if !folder.exists() {
+        return Ok(());
+    }
     let manifest = fs::read_to_string(folder.join(MANIFEST)).unwrap_or_default();
     let mut known: Vec<&Path> = manifest.lines().map(Path::new).collect();
     if !known.contains(&Path::new(kind.mark)) {

@@ -60,6 +60,7 @@ pub fn report(arguments: &ReportArguments) -> anyhow::Result<()> {
     if arguments.gpu {
         return gpu(arguments);
     }
+    page::check_folder(&arguments.out)?;
     let started = Instant::now();
     let this = std::env::current_exe().context("cannot find this program to start it again")?;
     let again = |argument: &str| {

@@ -86,7 +86,7 @@ impl Method for TableMethod {
 #[derive(Debug, thiserror::Error)]
 pub enum TableFileError {
     /// It cannot be read.
-    #[error("{path}: {source}; name a file that exists and can be read")]
+    #[error("cannot read {path}; name a file that exists and can be read")]
     File {
         /// The file.
         path: PathBuf,

@@ -41,6 +41,17 @@ pub use lobe::{LOBE_SIGHTS, LobePlot, lobe_plots};
 use super::data::Report;
 use crate::folder::{self, Kind, WriteError};
 
+const KIND: Kind = Kind { name: "report", mark: "report.json" };
+
+/// Asserts that [`write()`] would replace nothing in a folder but an older report: before the work that a report is.
+///
+/// # Errors
+///
+/// If it holds anything else.
+pub fn check_folder(folder: &Path) -> Result<(), PageError> {
+    Ok(folder::check_replaceable(folder, KIND)?)
+}
+
 /// A picture that a report names: its name and the bytes of its PNG file.
 pub type PictureFile = (String, Vec<u8>);
 
@@ -124,6 +135,5 @@ pub fn write(
     pictures: &[PictureFile],
     folder: &Path,
 ) -> Result<(), PageError> {
-    let kind = Kind { name: "report", mark: "report.json" };
-    Ok(folder::write(&files(report, lobes, pictures)?, folder, kind)?)
+    Ok(folder::write(&files(report, lobes, pictures)?, folder, KIND)?)
 }
