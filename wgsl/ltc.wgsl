@@ -1533,10 +1533,10 @@ fn ltc_outline_lobes_add(sums: ptr<function, LtcOutlineLobes>, surface: LtcSurfa
         var index = 1;
         loop {
             ltc_outline_lobe_add(&sum, outline, lobe);
-            if (index == 1) {
+            if (index <= 1) {
                 (*sums).first = sum;
                 sum = (*sums).second;
-            } else if (index == 2) {
+            } else if (index <= 2) {
                 (*sums).second = sum;
                 if (ltc_use_third_lobe) {
                     sum = (*sums).third;

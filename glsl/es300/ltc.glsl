@@ -2638,14 +2638,14 @@ void ltc_outline_lobes_add(inout LtcOutlineLobes sums, LtcSurface surface, LtcOu
             LtcLobe _e19 = lobe;
             ltc_outline_lobe_add(sum, outline, _e19);
             int _e20 = index;
-            if ((_e20 == 1)) {
+            if ((_e20 <= 1)) {
                 LtcOutlineLobe _e24 = sum;
                 sums.first = _e24;
                 LtcOutlineLobe _e26 = sums.second;
                 sum = _e26;
             } else {
                 int _e27 = index;
-                if ((_e27 == 2)) {
+                if ((_e27 <= 2)) {
                     LtcOutlineLobe _e31 = sum;
                     sums.second = _e31;
 #if LTC_THIRD_LOBE

@@ -29,8 +29,8 @@ fn evaluate(@builtin(global_invocation_id) invocation: vec3<u32>) {
     let anisotropy = ltc_anisotropy(surface, point.tangent, point.alpha_x, point.alpha_y);
     let corrected = ltc_anisotropic_lobe_from_table(surface, anisotropy, table, table_sampler, 64.0, 2);
     let stretched = ltc_stretched_lobe_from_table(surface, anisotropy, table, table_sampler, 64.0);
-    let first = ltc_quad(surface, corrected, point.a.xyz, point.b.xyz, point.c.xyz, point.d.xyz, false);
-    let second = ltc_quad(surface, stretched, point.a.xyz, point.b.xyz, point.c.xyz, point.d.xyz, false);
+    let first = ltc_quad(surface, ltc_lobes_of(surface, corrected), point.a.xyz, point.b.xyz, point.c.xyz, point.d.xyz, false);
+    let second = ltc_quad(surface, ltc_lobes_of(surface, stretched), point.a.xyz, point.b.xyz, point.c.xyz, point.d.xyz, false);
     values[2u * index] = vec4<f32>(first, corrected.albedo);
     values[2u * index + 1u] = vec4<f32>(second, stretched.albedo);
 }
