@@ -91,8 +91,8 @@ impl Quality {
     /// ```
     /// use softbox::effects::Quality;
     ///
-    /// let dielectric = Quality::Fine.expected_error(0.04, 1.0);
-    /// assert!((dielectric - Quality::Fine.error_bound().dielectric).abs() < 2e-3);
+    /// let dielectric = Quality::Fine.error_bound().dielectric;
+    /// assert!((Quality::Fine.expected_error(0.04, 1.0) - dielectric).abs() < 2e-3);
     /// // Of metals one lobe says as much as two of a dielectric.
     /// assert!(Quality::Standard.expected_error(0.9, 1.0) < dielectric);
     /// ```
