@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use softbox::effects::Quality;
 use softbox::fit::{bake_lobes, ggx};
 use softbox::report::{Quad, Region, random_quads};
 use softbox::shade::{LtcLobes, LtcSurface, ltc_lobes_part, ltc_quad, ltc_surface};
@@ -123,6 +124,31 @@ fn seen_along_the_normal_light_may_turn_around_it() {
                 assert!(difference < 1e-12, "{count} lobes, roughness {roughness}: {turned} and {still}");
             }
         }
+    }
+}
+
+/// What lights are culled by holds for sums of lobes: no small light is brighter than the peak says.
+#[test]
+fn no_small_light_is_brighter_than_the_peak() {
+    for (count, level) in [(2, Quality::Fine), (3, Quality::Finest)] {
+        let table = table(count);
+        let effects = level.of("quad+ggx".parse().expect("a set"));
+        let least = 0.3;
+        let peak = table.peak_with(least, effects);
+        let (mut brightest, half) = (0.0_f64, 1e-3);
+        for (i, j, k) in (0..12).flat_map(|i| (0..12).flat_map(move |j| (0..40).map(move |k| (i, j, k)))) {
+            let roughness = least + (1.0 - least) * f64::from(i) / 11.0;
+            let surface = surface(roughness, 0.02 + 0.98 * f64::from(j) / 11.0);
+            let angle = -1.55 + 3.1 * f64::from(k) / 39.0;
+            let direction = DVec3::new(angle.sin(), 0.0, angle.cos());
+            let (x, y) = (DVec3::new(angle.cos(), 0.0, -angle.sin()) * half, DVec3::Y * half);
+            let corners = [direction - x - y, direction - x + y, direction + x + y, direction + x - y];
+            let value = ltc_quad(&surface, &table.lobes(&surface, count), corners, false);
+            brightest = brightest.max(value.y / (4.0 * half * half));
+        }
+        assert!(brightest <= peak, "{count} lobes: {brightest} is more than {peak}");
+        // A bound that is far off culls nothing.
+        assert!(brightest > 0.3 * peak, "{count} lobes: {brightest} is far from {peak}");
     }
 }
 

@@ -40,25 +40,18 @@ pub fn light_value_with<R: Real>(
     effects: Effects,
 ) -> R::Vec3 {
     match light {
-        Light::Polygon { points, two_sided } if effects.is_fast() => {
-            let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
-            let points: Vec<R::Vec3> = points.iter().map(|point| v(*point)).collect();
+        Light::Polygon { points: corners, two_sided } if effects.is_fast() => {
+            let v = |v: &DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
+            let points: Vec<R::Vec3> = corners.iter().map(v).collect();
             match points[..] {
                 [a, b, c] => ltc_fast_quad(surface, lobes, [a, b, c, c], *two_sided),
-                [a, b, c, d] if is_convex_quad(light_points(light)) => {
+                [a, b, c, d] if is_convex_quad(corners) => {
                     ltc_fast_quad(surface, lobes, [a, b, c, d], *two_sided)
                 }
                 _ => ltc_fast_polygon(surface, lobes, &points, *two_sided),
             }
         }
         _ => light_value(surface, lobes, light),
-    }
-}
-
-fn light_points(light: &Light) -> &[DVec3] {
-    match light {
-        Light::Polygon { points, .. } => points,
-        _ => &[],
     }
 }
 

@@ -67,20 +67,31 @@ pub struct Accuracy {
     pub dielectric: f64,
 }
 
+/// Numbers that look random and are the same on every run: SplitMix64 (Steele et al. 2014).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    /// Uniform in 0…1.
+    pub(super) fn unit(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// Uniform between two bounds.
+    pub(super) fn between(&mut self, (low, high): (f64, f64)) -> f64 {
+        low + (high - low) * self.unit()
+    }
+}
+
 /// `count` quads in a region, the same on every run: 60 % near the mirror direction, at distances
 /// of 0.5…8 with half-sizes of 0.1…2; many straddle the horizon.
 pub fn random_quads(region: Region, count: usize) -> Vec<Quad> {
-    let mut state = region.roughness.0.to_bits() ^ region.cosine.0.to_bits().rotate_left(17);
-    // SplitMix64 (Steele et al. 2014).
-    let mut unit = move || {
-        state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (state ^ (state >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut random = Random(region.roughness.0.to_bits() ^ region.cosine.0.to_bits().rotate_left(17));
     let mut quads = Vec::with_capacity(count);
     while quads.len() < count {
-        let mut between = |(low, high): (f64, f64)| low + (high - low) * unit();
+        let mut between = |bounds: (f64, f64)| random.between(bounds);
         let roughness = between(region.roughness);
         let cosine = between(region.cosine);
         let view = DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
@@ -117,11 +128,7 @@ pub fn random_quads(region: Region, count: usize) -> Vec<Quad> {
 /// (specular, fresnel) of a quad by a table.
 pub fn shade(table: &Table, technique: Technique, quad: &Quad) -> [f64; 2] {
     match technique {
-        Technique::Include => {
-            let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, quad.view, quad.roughness);
-            let value = ltc_quad(&surface, &table.lobe(&surface), quad.corners, false);
-            [value.y(), value.z()]
-        }
+        Technique::Include => shade(table, Technique::With(Effects::NONE), quad),
         Technique::With(effects) => {
             let surface = ltc_surface::<f64>(DVec3::ZERO, DVec3::Z, quad.view, quad.roughness);
             let lobes = table.specular(&surface, effects);

@@ -15,12 +15,14 @@ pub use container::{Container, ContainerError};
 #[cfg(feature = "bake")]
 pub use pack::clipped_sphere;
 
+use crate::effects::Effects;
 pub use crate::effects::Layer;
 
 use half::f16;
 
 use crate::shade::{
-    LtcLobe, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface, ltc_table_coordinates,
+    LobeSum, LtcLobe, LtcSurface, Real, ltc_diffuse_lobe, ltc_lobe, ltc_sheen_lobe, ltc_surface,
+    ltc_table_coordinates,
 };
 
 /// A table of half-precision texels: layers of `size` × `size` texels of four numbers, at first
@@ -283,6 +285,15 @@ impl Table {
     /// Found on a grid four times as fine as the table in both directions, and raised by a tenth for what lies
     /// between its points.
     pub fn peak(&self, roughness: f64) -> f64 {
+        self.peak_with(roughness, Effects::NONE)
+    }
+
+    /// The same with the lobes that some effects bring: of a sum the peaks of all of its lobes together.
+    ///
+    /// # Panics
+    ///
+    /// If the table lacks their layers.
+    pub fn peak_with(&self, roughness: f64, effects: Effects) -> f64 {
         let last = 4 * (self.size - 1);
         let first = roughness.clamp(0.0, 1.0);
         let mut peak = 0.0_f64;
@@ -292,8 +303,9 @@ impl Table {
                 let cosine = (row as f64 / last as f64).powi(2);
                 let view = glam::DVec3::new((1.0 - cosine * cosine).sqrt(), 0.0, cosine);
                 let surface = ltc_surface::<f64>(glam::DVec3::ZERO, glam::DVec3::Z, view, roughness);
-                let lobe = self.lobe(&surface);
-                peak = peak.max(lobe.albedo * largest_density(&lobe) / lobe.share);
+                let lobes = self.specular(&surface, effects);
+                let each = lobes.lobes().iter();
+                peak = peak.max(each.map(|lobe| lobe.albedo * largest_density(lobe) / lobe.share).sum());
             }
         }
         1.1 * peak

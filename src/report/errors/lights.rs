@@ -3,6 +3,7 @@
 use core::f64::consts::TAU;
 use glam::DVec3;
 
+use crate::report::measure::Random;
 use crate::report::{Quad, Region};
 
 /// `count` quads over a region of roughness and view, the same for a seed on every run.
@@ -51,21 +52,7 @@ pub fn random_lights(seed: u64, region: Region, count: usize) -> Vec<Quad> {
 /// Deviation of a light's normal from the direction to the surface point, before it is made a unit vector.
 const TILT: f64 = 0.7;
 
-/// SplitMix64 (Steele et al. 2014).
-struct Random(u64);
-
 impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, (low, high): (f64, f64)) -> f64 {
-        low + (high - low) * self.unit()
-    }
-
     fn between_logarithms(&mut self, (low, high): (f64, f64)) -> f64 {
         self.between((low.ln(), high.ln())).exp()
     }
