@@ -1506,13 +1506,18 @@ float3 ltc_edges(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_norm
 #if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // Where the edge from `above` the plane z = 0 to `below` it meets that plane: `turned`, which is what the plane of the edge
 // says, or for an edge that is nearly parallel to the horizon what its ends say, if that has more digits: those cancel
-// where the edge passes the surface point closely. `tilt` is the squared sine between that plane and the horizon.
-float2 ltc_flat_crossing(float3 above, float3 below, float tilt, float2 turned)
+// where the edge passes the surface point closely. `tilt` is the squared sine between that plane and the horizon; `rise` is
+// the height of the plane's normal, whose sign is that of the turn from `above` to `below`: a crossing that does not lie on
+// that turn would put the light on the other side of the point.
+float2 ltc_flat_crossing(float3 above, float3 below, float tilt, float rise, float2 turned)
 {
     float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
     float2 between = (above.xy + ((below.xy - above.xy) * t));
     float squared = dot(between, between);
-    bool tilted = ((tilt > 0.001) | ((tilt * max(dot(above, above), dot(below, below))) > squared));
+    bool after = ((((above.x * turned.y) - (above.y * turned.x)) * rise) >= 0.0);
+    bool before = ((((turned.x * below.y) - (turned.y * below.x)) * rise) >= 0.0);
+    bool resolved = ((tilt * max(dot(above, above), dot(below, below))) > squared);
+    bool tilted = ((tilt > 0.001) | ((resolved & after) & before));
     return (tilted ? turned : (between * rsqrt(max(squared, LTC_TINY))));
 }
 #endif
@@ -1609,63 +1614,63 @@ float3 ltc_pentagon(float3 a, float3 b, float3 c, float3 d, float3 e, float3 a_n
         float3 leave_to = (leave_e ? a : (leave_d ? e : (leave_c ? d : (leave_b ? c : b))));
         float3 enter_to = (enter_e ? e : (enter_d ? d : (enter_c ? c : (enter_b ? b : a))));
         float3 enter_from = (enter_e ? d : (enter_d ? c : (enter_c ? b : (enter_b ? a : e))));
-        float2 _e124 = leave_xy;
-        const float2 _e125 = ltc_flat_crossing(leave_from, leave_to, leave_tilt, _e124);
-        leave_xy = _e125;
-        float2 _e126 = enter_xy;
-        const float2 _e127 = ltc_flat_crossing(enter_to, enter_from, enter_tilt, _e126);
-        enter_xy = _e127;
+        float2 _e125 = leave_xy;
+        const float2 _e126 = ltc_flat_crossing(leave_from, leave_to, leave_tilt, leave_normal.z, _e125);
+        leave_xy = _e126;
+        float2 _e129 = enter_xy;
+        const float2 _e130 = ltc_flat_crossing(enter_to, enter_from, enter_tilt, -(enter_normal.z), _e129);
+        enter_xy = _e130;
     }
-    float2 _e128 = leave_xy;
-    float3 leave = float3(_e128, 0.0);
-    float2 _e131 = enter_xy;
-    float3 enter = float3(_e131, 0.0);
-    const float _e134 = ltc_inverse_length(a);
-    float3 a_unit = (a * _e134);
-    const float _e136 = ltc_inverse_length(b);
-    float3 b_unit = (b * _e136);
-    const float _e138 = ltc_inverse_length(c);
-    float3 c_unit = (c * _e138);
-    const float _e140 = ltc_inverse_length(d);
-    float3 d_unit = (d * _e140);
-    const float _e142 = ltc_inverse_length(e);
-    float3 e_unit = (e * _e142);
-    const float4 _e146 = ltc_part((a_up ? a_unit : enter), (b_up ? b_unit : leave));
-    const float4 _e149 = ltc_part((b_up ? b_unit : enter), (c_up ? c_unit : leave));
-    const float4 _e152 = ltc_part((c_up ? c_unit : enter), (d_up ? d_unit : leave));
-    const float4 _e155 = ltc_part((d_up ? d_unit : enter), (e_up ? e_unit : leave));
-    const float4 _e158 = ltc_part((e_up ? e_unit : enter), (a_up ? a_unit : leave));
-    const float _e161 = ltc_edge_weight(_e146.w, 1.0);
-    float a_weight = ((a_up | b_up) ? _e161 : 0.0);
-    const float _e167 = ltc_edge_weight(_e149.w, 1.0);
-    float b_weight = ((b_up | c_up) ? _e167 : 0.0);
-    const float _e173 = ltc_edge_weight(_e152.w, 1.0);
-    float c_weight = ((c_up | d_up) ? _e173 : 0.0);
-    const float _e179 = ltc_edge_weight(_e155.w, 1.0);
-    float d_weight = ((d_up | e_up) ? _e179 : 0.0);
-    const float _e185 = ltc_edge_weight(_e158.w, 1.0);
-    float e_weight = ((e_up | a_up) ? _e185 : 0.0);
-    sum = (((((_e146.xyz * a_weight) + (_e149.xyz * b_weight)) + (_e152.xyz * c_weight)) + (_e155.xyz * d_weight)) + (_e158.xyz * e_weight));
-    bool obtuse = (min(min(min(_e146.w, _e149.w), min(_e152.w, _e155.w)), _e158.w) < 0.0);
+    float2 _e131 = leave_xy;
+    float3 leave = float3(_e131, 0.0);
+    float2 _e134 = enter_xy;
+    float3 enter = float3(_e134, 0.0);
+    const float _e137 = ltc_inverse_length(a);
+    float3 a_unit = (a * _e137);
+    const float _e139 = ltc_inverse_length(b);
+    float3 b_unit = (b * _e139);
+    const float _e141 = ltc_inverse_length(c);
+    float3 c_unit = (c * _e141);
+    const float _e143 = ltc_inverse_length(d);
+    float3 d_unit = (d * _e143);
+    const float _e145 = ltc_inverse_length(e);
+    float3 e_unit = (e * _e145);
+    const float4 _e149 = ltc_part((a_up ? a_unit : enter), (b_up ? b_unit : leave));
+    const float4 _e152 = ltc_part((b_up ? b_unit : enter), (c_up ? c_unit : leave));
+    const float4 _e155 = ltc_part((c_up ? c_unit : enter), (d_up ? d_unit : leave));
+    const float4 _e158 = ltc_part((d_up ? d_unit : enter), (e_up ? e_unit : leave));
+    const float4 _e161 = ltc_part((e_up ? e_unit : enter), (a_up ? a_unit : leave));
+    const float _e164 = ltc_edge_weight(_e149.w, 1.0);
+    float a_weight = ((a_up | b_up) ? _e164 : 0.0);
+    const float _e170 = ltc_edge_weight(_e152.w, 1.0);
+    float b_weight = ((b_up | c_up) ? _e170 : 0.0);
+    const float _e176 = ltc_edge_weight(_e155.w, 1.0);
+    float c_weight = ((c_up | d_up) ? _e176 : 0.0);
+    const float _e182 = ltc_edge_weight(_e158.w, 1.0);
+    float d_weight = ((d_up | e_up) ? _e182 : 0.0);
+    const float _e188 = ltc_edge_weight(_e161.w, 1.0);
+    float e_weight = ((e_up | a_up) ? _e188 : 0.0);
+    sum = (((((_e149.xyz * a_weight) + (_e152.xyz * b_weight)) + (_e155.xyz * c_weight)) + (_e158.xyz * d_weight)) + (_e161.xyz * e_weight));
+    bool obtuse = (min(min(min(_e149.w, _e152.w), min(_e155.w, _e158.w)), _e161.w) < 0.0);
     if (obtuse) {
-        float3 _e215 = sum;
-        const float3 _e217 = ltc_part_turn(_e146, a_weight, a_normal, (a_up | b_up));
-        const float3 _e219 = ltc_part_turn(_e149, b_weight, b_normal, (b_up | c_up));
-        const float3 _e222 = ltc_part_turn(_e152, c_weight, c_normal, (c_up | d_up));
-        const float3 _e225 = ltc_part_turn(_e155, d_weight, d_normal, (d_up | e_up));
-        const float3 _e228 = ltc_part_turn(_e158, e_weight, e_normal, (e_up | a_up));
-        sum = (_e215 + ((((_e217 + _e219) + _e222) + _e225) + _e228));
+        float3 _e218 = sum;
+        const float3 _e220 = ltc_part_turn(_e149, a_weight, a_normal, (a_up | b_up));
+        const float3 _e222 = ltc_part_turn(_e152, b_weight, b_normal, (b_up | c_up));
+        const float3 _e225 = ltc_part_turn(_e155, c_weight, c_normal, (c_up | d_up));
+        const float3 _e228 = ltc_part_turn(_e158, d_weight, d_normal, (d_up | e_up));
+        const float3 _e231 = ltc_part_turn(_e161, e_weight, e_normal, (e_up | a_up));
+        sum = (_e218 + ((((_e220 + _e222) + _e225) + _e228) + _e231));
     }
-    float2 _e231 = leave_xy;
-    float2 _e232 = enter_xy;
-    float along = dot(_e231, _e232);
+    float2 _e234 = leave_xy;
+    float2 _e235 = enter_xy;
+    float along = dot(_e234, _e235);
     float area = ((leave.x * enter.y) - (leave.y * enter.x));
-    const float _e242 = ltc_edge_weight(along, 1.0);
-    float acute = (area * _e242);
+    const float _e245 = ltc_edge_weight(along, 1.0);
+    float acute = (area * _e245);
     float angle = ((along < 0.0) ? (((area < 0.0) ? -3.1415927 : LTC_PI) - acute) : acute);
-    float3 _e253 = sum;
-    float _e256 = sum.z;
-    return -(float3(_e253.xy, (_e256 + angle)));
+    float3 _e256 = sum;
+    float _e259 = sum.z;
+    return -(float3(_e256.xy, (_e259 + angle)));
 }
 #endif
 

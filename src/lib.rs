@@ -25,6 +25,7 @@
 //! | `scene` | scene files and their rendering |
 //! | `cost` | what a compiler for AMD's processors makes of a set of effects |
 //! | `report` | errors and costs of every quality level, side by side |
+//! | `stability` | hard cases and what must hold there |
 
 use include_dir::{Dir, include_dir};
 
@@ -103,6 +104,8 @@ pub mod report;
 pub mod scene;
 #[cfg(feature = "shade")]
 pub mod shade;
+#[cfg(feature = "stability")]
+pub mod stability;
 #[cfg(feature = "shade")]
 pub mod table;
 #[cfg(feature = "shade")]

@@ -94,23 +94,21 @@ fn difference(what: &str, cases: &[Case], a: &[[f32; 3]], b: &[[f32; 3]]) -> (us
 #[test]
 fn levels_keep_the_bounds_of_hard_cases_in_every_translation() {
     let device = Device::open(wgpu::Backends::VULKAN).unwrap_or_else(|error| panic!("{error}"));
-    let mut cases = common::families::cases(15);
+    let mut cases = common::cases(15);
     assert!(cases.len() > 15_000, "{}", cases.len());
     for level in [Quality::Fast, Quality::Fine, Quality::Finest] {
         let effects = effects(level);
         let table = table(effects);
         if effects.is_fast() {
             // Its error has bounds of their own, in the tests of the switches; here that it stays within physics.
-            cases.iter_mut().for_each(|case| case.bound = Bound::Physical);
+            cases
+                .iter_mut()
+                .for_each(|case| (case.bound, case.specular_bound) = (Bound::Physical, f64::INFINITY));
         } else {
-            cases = common::families::cases(15);
+            cases = common::cases(15);
         }
-        let exact: Vec<[f64; 3]> =
-            cases.iter().map(|case| common::twin_with::<f64>(&table, effects, case)).collect();
-        let twin: Vec<[f32; 3]> = cases
-            .iter()
-            .map(|case| common::twin_with::<f32>(&table, effects, case).map(|v| v as f32))
-            .collect();
+        let exact: Vec<[f64; 3]> = cases.iter().map(|case| case.exact(&table, effects)).collect();
+        let twin = common::twin(&cases, &table, effects);
         common::check_with(&format!("{level}, twin"), &cases, &exact, &twin, (&table, effects));
 
         let text = wgsl(effects).unwrap_or_else(|error| panic!("{error}"));

@@ -23,8 +23,8 @@ fn inputs() -> &'static Inputs {
     static INPUTS: OnceLock<Inputs> = OnceLock::new();
     INPUTS.get_or_init(|| {
         let table = Table::default();
-        let cases = common::families::cases(100);
-        let exact = cases.iter().map(|case| common::twin::<f64>(&table, case)).collect();
+        let cases = common::cases(100);
+        let exact = common::exact(&cases, &table);
         Inputs { table, cases, exact }
     })
 }

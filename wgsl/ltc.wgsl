@@ -722,12 +722,17 @@ fn ltc_edges(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<f32
 
 /// Where the edge from `above` the plane z = 0 to `below` it meets that plane: `turned`, which is what the plane of the edge
 /// says, or for an edge that is nearly parallel to the horizon what its ends say, if that has more digits: those cancel
-/// where the edge passes the surface point closely. `tilt` is the squared sine between that plane and the horizon.
-fn ltc_flat_crossing(above: vec3<f32>, below: vec3<f32>, tilt: f32, turned: vec2<f32>) -> vec2<f32> {
+/// where the edge passes the surface point closely. `tilt` is the squared sine between that plane and the horizon; `rise` is
+/// the height of the plane's normal, whose sign is that of the turn from `above` to `below`: a crossing that does not lie on
+/// that turn would put the light on the other side of the point.
+fn ltc_flat_crossing(above: vec3<f32>, below: vec3<f32>, tilt: f32, rise: f32, turned: vec2<f32>) -> vec2<f32> {
     let t = max(above.z, 0.0) / max(above.z - below.z, LTC_TINY);
     let between = above.xy + (below.xy - above.xy) * t;
     let squared = dot(between, between);
-    let tilted = (tilt > 1e-3) | (tilt * max(dot(above, above), dot(below, below)) > squared);
+    let after = (above.x * turned.y - above.y * turned.x) * rise >= 0.0;
+    let before = (turned.x * below.y - turned.y * below.x) * rise >= 0.0;
+    let resolved = tilt * max(dot(above, above), dot(below, below)) > squared;
+    let tilted = (tilt > 1e-3) | (resolved & after & before);
     return select(between * inverseSqrt(max(squared, LTC_TINY)), turned, tilted);
 }
 
@@ -797,8 +802,8 @@ fn ltc_pentagon(a: vec3<f32>, b: vec3<f32>, c: vec3<f32>, d: vec3<f32>, e: vec3<
         let leave_to = select(select(select(select(b, c, leave_b), d, leave_c), e, leave_d), a, leave_e);
         let enter_to = select(select(select(select(a, b, enter_b), c, enter_c), d, enter_d), e, enter_e);
         let enter_from = select(select(select(select(e, a, enter_b), b, enter_c), c, enter_d), d, enter_e);
-        leave_xy = ltc_flat_crossing(leave_from, leave_to, leave_tilt, leave_xy);
-        enter_xy = ltc_flat_crossing(enter_to, enter_from, enter_tilt, enter_xy);
+        leave_xy = ltc_flat_crossing(leave_from, leave_to, leave_tilt, leave_normal.z, leave_xy);
+        enter_xy = ltc_flat_crossing(enter_to, enter_from, enter_tilt, -enter_normal.z, enter_xy);
     }
     let leave = vec3<f32>(leave_xy, 0.0);
     let enter = vec3<f32>(enter_xy, 0.0);

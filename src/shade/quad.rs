@@ -155,20 +155,29 @@ pub fn ltc_edges<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5]) -> R::V
 /// Where the edge from `above` the plane z = 0 to `below` it meets that plane: `turned`, which is what the plane of the
 /// edge says, or for an edge that is nearly parallel to the horizon what its ends say, if that has more digits.
 /// `tilt` is the squared sine between that plane and the horizon.
-pub fn ltc_flat_crossing<R: Real>(above: R::Vec3, below: R::Vec3, tilt: R, turned: R::Vec3) -> R::Vec3 {
+pub fn ltc_flat_crossing<R: Real>(
+    above: R::Vec3,
+    below: R::Vec3,
+    tilt: R,
+    rise: R,
+    turned: R::Vec3,
+) -> R::Vec3 {
     let zero = R::new(0.0);
     let t = above.z().max(zero) / (above.z() - below.z()).max(R::new(LTC_TINY));
     let (x, y) = (above.x() + (below.x() - above.x()) * t, above.y() + (below.y() - above.y()) * t);
     let between = R::Vec3::new(x, y, zero);
     let farthest = above.dot(above).max(below.dot(below));
-    if (tilt > R::new(1e-3)) | (tilt * farthest > between.dot(between)) { turned } else { unit::<R>(between) }
+    let after = (above.x() * turned.y() - above.y() * turned.x()) * rise >= zero;
+    let before = (turned.x() * below.y() - turned.y() * below.x()) * rise >= zero;
+    let resolved = tilt * farthest > between.dot(between);
+    if (tilt > R::new(1e-3)) | (resolved & after & before) { turned } else { unit::<R>(between) }
 }
 
 /// Where the edge with this normal, from `above` to `below`, leaves the upper side.
 fn leaving<R: Real>(normal: R::Vec3, above: R::Vec3, below: R::Vec3) -> R::Vec3 {
     let turned = R::Vec3::new(normal.y(), -normal.x(), R::new(0.0));
     let tilt = turned.dot(turned) / normal.dot(normal).max(R::new(LTC_TINY));
-    ltc_flat_crossing::<R>(above, below, tilt, unit::<R>(turned))
+    ltc_flat_crossing::<R>(above, below, tilt, normal.z(), unit::<R>(turned))
 }
 
 /// The sine of the elevation down to which a vertex counts as above the lobe's horizon.
