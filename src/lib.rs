@@ -23,6 +23,7 @@
 //! | `package` | the drop-in package, table file formats |
 //! | `device` | evaluation on a wgpu adapter |
 //! | `scene` | scene files and their rendering |
+//! | `interpret` | kernels run operation by operation: what they take, and what any conforming device may make of them |
 //! | `cost` | what a compiler for AMD's processors makes of a set of effects |
 //! | `report` | errors and costs of every quality level, side by side |
 //! | `stability` | hard cases and what must hold there |
@@ -90,6 +91,8 @@ pub mod effects;
 pub mod fit;
 #[cfg(any(feature = "package", feature = "report"))]
 mod folder;
+#[cfg(feature = "interpret")]
+pub mod interpret;
 #[cfg(feature = "shade")]
 mod ktx;
 #[cfg(feature = "shade")]

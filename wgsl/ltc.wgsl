@@ -182,7 +182,9 @@ fn ltc_extent(v: vec3<f32>) -> f32 {
 fn ltc_direction(v: vec3<f32>) -> vec3<f32> {
     // The reciprocal of anything larger would be subnormal, which a device may take for zero.
     let scaled = v * (1.0 / clamp(ltc_extent(v), LTC_TINY, 8e37));
-    return scaled * inverseSqrt(max(dot(scaled, scaled), LTC_TINY));
+    // The square is 1 to 3, and less for a subnormal vector alone. So the product of the two factors is finite, which a compiler
+    // may take first.
+    return scaled * inverseSqrt(max(dot(scaled, scaled), 1e-3));
 }
 
 /// Frame and roughness of a surface point. `normal` and `view` (towards the eye) need not be unit,
@@ -624,7 +626,8 @@ fn ltc_above_tolerance(lobe: LtcLobe) -> f32 {
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
 /// it passes the surface point closely. `normal` has the direction of above x below.
 fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
-    let t = max(above.z, 0.0) / max(above.z - below.z, LTC_TINY);
+    let high = max(above.z, 0.0);
+    let t = high / max(high - min(below.z, 0.0), LTC_TINY);
     let between = vec3<f32>(above.xy + (below.xy - above.xy) * t, 0.0);
     // Where the segment passes the surface point closely the ends cancel; the plane of the segment still
     // has its digits, unless it is that of the horizon.
@@ -1237,6 +1240,10 @@ struct LtcOutline {
     previous: vec3<f32>,
     /// Twice the signed area so far times the height of the surface point over the light's plane.
     facing: f32,
+    /// Whether the first vertex counts as above the surface.
+    first_up: bool,
+    /// Whether the last vertex so far does.
+    previous_up: bool,
     /// First point on the surface's horizon.
     crossing: vec3<f32>,
     /// Form factor so far, times 2 pi and signed.
@@ -1313,6 +1320,8 @@ fn ltc_outline_begin(surface: LtcSurface, corner: vec3<f32>) -> LtcOutline {
     var outline: LtcOutline;
     outline.first = corner;
     outline.scale = 1.0 / max(ltc_extent(to_first), LTC_TINY);
+    outline.first_up = dot(surface.normal, to_first) > 0.0;
+    outline.previous_up = outline.first_up;
     outline.previous = corner;
     outline.facing = 0.0;
     outline.diffuse = 0.0;
@@ -1327,9 +1336,9 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
     let first_far = (*outline).first * LTC_HEADROOM;
     let a_far = (*outline).previous * LTC_HEADROOM;
     let b_far = corner * LTC_HEADROOM;
-    // Lengths in units of the distance to the first vertex, but below 1e12 of anything.
+    // Lengths in units of the distance to the first vertex, but below 1e8 of anything, so that squares of areas are finite.
     let extent = max(ltc_extent(a_far - origin), ltc_extent(b_far - origin));
-    let scale = min((*outline).scale, 1e12 / max(extent, 1e-25));
+    let scale = min((*outline).scale, 1e8 / max(extent, 1e-29));
     let reference = (first_far - origin) * scale;
     let a = (a_far - origin) * scale;
     let b = (b_far - origin) * scale;
@@ -1363,8 +1372,11 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
     let near = !ltc_use_cheap_distance & (max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < 0.0625 * dot(reference, reference));
     let a_height = select(dot(surface.normal, a), height + dot(surface.normal, a_offset), near);
     let b_height = select(dot(surface.normal, b), height + dot(surface.normal, b_offset), near);
-    let a_up = a_height > 0.0;
-    let b_up = b_height > 0.0;
+    // A vertex on the horizon counts as above for both of its edges or for neither, whatever rounding says at each of them:
+    // otherwise the horizon would not close the outline.
+    let a_up = (*outline).previous_up;
+    let b_up = select(b_height > 0.0, (*outline).first_up, all(corner == (*outline).first));
+    (*outline).previous_up = b_up;
     (*outline).above = a_up | b_up;
     (*outline).closes = false;
     if (!(a_up | b_up)) {
@@ -1379,8 +1391,9 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
         let below = select(a, b, a_up);
         let above_offset = select(b_offset, a_offset, a_up);
         let below_offset = select(a_offset, b_offset, a_up);
-        let high = max(a_height, b_height);
-        let t = high / max(high - min(a_height, b_height), LTC_TINY);
+        let high = max(select(b_height, a_height, a_up), 0.0);
+        let low = min(select(a_height, b_height, a_up), 0.0);
+        let t = high / max(high - low, LTC_TINY);
         let crossing = above + (below - above) * t;
         let crossing_offset = above_offset + (below_offset - above_offset) * t;
         if ((*outline).crossed) {
@@ -1474,7 +1487,8 @@ fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, refe
         let below = select(m_a, m_b, a_up);
         let above_offset = select(m_b_offset, m_a_offset, a_up);
         let below_offset = select(m_a_offset, m_b_offset, a_up);
-        let t = max(above.z, 0.0) / max(above.z - below.z, LTC_TINY);
+        let high = max(above.z, 0.0);
+        let t = high / max(high - min(below.z, 0.0), LTC_TINY);
         let crossing = ltc_crossing(above, below, select(-m_normal, m_normal, a_up));
         let crossing_offset = above_offset + (below_offset - above_offset) * t;
         if ((*sum).crossed) {
@@ -1754,10 +1768,12 @@ fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius:
     let upright = surface.normal - axis * dot(surface.normal, axis);
     let hidden = select(0.0, max(1.0 - dot(across, across), 0.0), is_inside);
     let slope = across * dot(surface.normal, across) + upright * hidden;
-    let rise = r * ltc_root(max(dot(surface.normal, slope), 0.0));
+    // But for rounding the first is not less than the second.
+    let extent = ltc_root(max(dot(surface.normal, slope), dot(slope, slope)));
+    let rise = r * extent;
     let highest = max(dot(surface.normal, p_a - moved), dot(surface.normal, p_b - moved));
     let seen = ltc_tube_share(highest, rise);
-    let lift = slope * ((1.0 - seen) * r * r / max(rise, LTC_TINY));
+    let lift = slope * ((1.0 - seen) * r / max(extent, 1e-15));
     let q_a = p_a - moved + lift;
     let q_b = p_b - moved + lift;
     let a_height = dot(surface.normal, q_a);
@@ -2426,7 +2442,8 @@ fn ltc_cut(normal: vec3<f32>, half_x: vec3<f32>, half_y: vec3<f32>, size: f32, c
     cut.height = dot(normal, centre);
     cut.toward = slope * inverse_slope;
     cut.steepness = size * square * inverse_slope;
-    cut.offset = -cut.height / max(cut.steepness, LTC_TINY);
+    // Beyond 1 the plane misses the rim; how far beyond does not matter, but squares of it shall be finite.
+    cut.offset = clamp(-cut.height / max(cut.steepness, LTC_TINY), -1e9, 1e9);
     let bounded = clamp(cut.offset, -1.0, 1.0);
     let reach_square = (1.0 - bounded) * (1.0 + bounded);
     cut.reach = reach_square * inverseSqrt(max(reach_square, LTC_TINY));
@@ -3642,7 +3659,7 @@ fn ltc_round_above(form_factor: vec3<f32>, height: f32) -> f32 {
     // The square of the sine of the light's half-angle, and that times the sine.
     let whole = squared * inverse;
     let reach = whole * sqrt(max(whole, LTC_TINY));
-    let tilt = height * inverse;
+    let tilt = min(abs(height * inverse), 1.0);
     // 1 where the horizon touches the light's rim.
     let offset = min(tilt * tilt * inverse, 1.0);
     let depth = sqrt(max(1.0 - whole, LTC_TINY));

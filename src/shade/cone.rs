@@ -102,7 +102,7 @@ pub fn ltc_cut<R: Real>(
     let inverse = square.max(R::new(LTC_TINY)).inverse_sqrt();
     let steepness = size * square * inverse;
     let toward = [slope[0] * inverse, slope[1] * inverse];
-    let offset = -height / steepness.max(R::new(LTC_TINY));
+    let offset = (-height / steepness.max(R::new(LTC_TINY))).clamp(R::new(-1e9), R::new(1e9));
     let bounded = offset.clamp(-one, one);
     let inside = (one - bounded) * (one + bounded);
     let reach = inside * inside.max(R::new(LTC_TINY)).inverse_sqrt();

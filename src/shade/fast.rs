@@ -53,7 +53,7 @@ pub fn ltc_round_above<R: Real>(form_factor: R::Vec3, height: R) -> R {
     let inverse = squared.max(tiny).inverse_sqrt();
     let whole = squared * inverse;
     let reach = whole * root(whole.max(tiny));
-    let tilt = height * inverse;
+    let tilt = (height * inverse).abs().min(R::new(1.0));
     let offset = (tilt * tilt * inverse).min(one);
     let depth = root((one - whole).max(tiny));
     let [a, b, c] = LTC_ROUND_ABOVE.map(R::new);

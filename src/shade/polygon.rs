@@ -16,6 +16,10 @@ use super::surface::{
 pub struct LtcOutline<R: Real> {
     first: R::Vec3,
     scale: R,
+    /// Whether the first vertex counts as above the surface.
+    first_up: bool,
+    /// Whether the last vertex so far does.
+    previous_up: bool,
     previous: R::Vec3,
     facing: R,
     diffuse: R,
@@ -59,7 +63,10 @@ pub fn ltc_outline_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> L
     let zero: R = R::new(0.0);
     let headroom: R = R::new(LTC_HEADROOM);
     let to_first = corner * headroom - surface.position * headroom;
+    let first_up = surface.normal.dot(to_first) > zero;
     LtcOutline {
+        first_up,
+        previous_up: first_up,
         first: corner,
         scale: R::new(1.0) / ltc_extent::<R>(to_first).max(R::new(LTC_TINY)),
         previous: corner,
@@ -78,11 +85,12 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
     let first = outline.first * headroom;
     let (a, b) = (outline.previous * headroom, corner * headroom);
     let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
-    let scale = outline.scale.min(R::new(1e12) / extent.max(R::new(1e-25)));
+    let scale = outline.scale.min(R::new(1e8) / extent.max(R::new(1e-29)));
     let place = |v: R::Vec3| Point::<R> { at: (v - origin) * scale, offset: (v - first) * scale };
     let reference = place(first).at;
     let (a, b) = (place(a), place(b));
     outline.facing += a.offset.cross(b.offset).dot(reference);
+    let closes = corner == outline.first;
     outline.previous = corner;
     outline.reference = reference;
 
@@ -93,7 +101,10 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
     let [a_height, b_height] =
         [a, b].map(|p| if near { height + normal.dot(p.offset) } else { normal.dot(p.at) });
     let zero: R = R::new(0.0);
-    let ends = [(a, a_height, a_height > zero), (b, b_height, b_height > zero)];
+    // As in the include: a vertex counts the same for both of its edges.
+    let b_up = if closes { outline.first_up } else { b_height > zero };
+    let a_up = core::mem::replace(&mut outline.previous_up, b_up);
+    let ends = [(a, a_height, a_up), (b, b_height, b_up)];
     let edges = cut(ends[0], ends[1], &mut outline.crossing, |above, below, t| Point {
         at: above.at + (below.at - above.at) * t,
         offset: above.offset + (below.offset - above.offset) * t,
@@ -199,7 +210,8 @@ fn cut<R: Real>(
     }
     let (above, below) = if a_up { (a, b) } else { (b, a) };
     let (high, low) = if a_up { (a_height, b_height) } else { (b_height, a_height) };
-    let t = high.max(R::new(0.0)) / (high - low).max(R::new(LTC_TINY));
+    let (high, low) = (high.max(R::new(0.0)), low.min(R::new(0.0)));
+    let t = high / (high - low).max(R::new(LTC_TINY));
     let crossing = cross(above, below, t);
     let closing = match *first_crossing {
         Some(base) => Some((if a_up { (crossing, base) } else { (base, crossing) }, true)),

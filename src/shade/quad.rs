@@ -108,7 +108,8 @@ pub fn ltc_above_tolerance<R: Real>(lobe: &LtcLobe<R>) -> R {
 /// passes the surface point closely. `normal` has the direction of above × below.
 pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) -> R::Vec3 {
     let zero: R = R::new(0.0);
-    let t = above.z().max(zero) / (above.z() - below.z()).max(R::new(LTC_TINY));
+    let (high, low) = (above.z().max(zero), below.z().min(zero));
+    let t = high / (high - low).max(R::new(LTC_TINY));
     let between =
         R::Vec3::new(above.x() + (below.x() - above.x()) * t, above.y() + (below.y() - above.y()) * t, zero);
     let turned = R::Vec3::new(normal.y(), -normal.x(), zero);

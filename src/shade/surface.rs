@@ -77,7 +77,7 @@ pub fn ltc_extent<R: Real>(v: R::Vec3) -> R {
 /// `v` over its length, whatever that is; zero for a zero vector.
 pub fn ltc_direction<R: Real>(v: R::Vec3) -> R::Vec3 {
     let scaled = v * (R::new(1.0) / ltc_extent::<R>(v).clamp(R::new(LTC_TINY), R::new(8e37)));
-    unit::<R>(scaled)
+    scaled * scaled.dot(scaled).max(R::new(1e-3)).inverse_sqrt()
 }
 
 /// `v` over its length, for a `v` whose square is in range.

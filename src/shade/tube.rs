@@ -135,10 +135,11 @@ pub fn ltc_tube_begin<R: Real>(
     let upright = surface.normal - axis * surface.normal.dot(axis);
     let hidden = if is_inside { (one - across.dot(across)).max(zero) } else { zero };
     let slope = across * surface.normal.dot(across) + upright * hidden;
-    let rise = r * ltc_root(surface.normal.dot(slope).max(zero));
+    let extent = ltc_root(surface.normal.dot(slope).max(slope.dot(slope)));
+    let rise = r * extent;
     let highest = surface.normal.dot(p_a - moved).max(surface.normal.dot(p_b - moved));
     let seen = ltc_tube_share(highest, rise);
-    let lift = slope * ((one - seen) * r * r / rise.max(tiny));
+    let lift = slope * ((one - seen) * r / extent.max(R::new(1e-15)));
     let (q_a, q_b) = (p_a - moved + lift, p_b - moved + lift);
     let (a_height, b_height) = (surface.normal.dot(q_a), surface.normal.dot(q_b));
     let a_part = saturate(-a_height / (b_height - a_height).max(tiny));

@@ -5,7 +5,9 @@ use glam::{DVec3, Vec3};
 use crate::device::{Batch, EvaluateLight, EvaluateSurface};
 use crate::effects::Effects;
 use crate::light::{Light, light_value, polygon_value};
-use crate::shade::{LobeSum, LtcSurface, Real, Vector, ltc_fast_polygon, ltc_fast_quad, ltc_surface};
+use crate::shade::{
+    LobeSum, LtcSpecular, LtcSurface, Real, Vector, ltc_fast_polygon, ltc_fast_quad, ltc_surface,
+};
 use crate::table::Table;
 
 /// What must hold for the form factor.
@@ -144,25 +146,34 @@ impl Case {
     /// Values (diffuse, specular, fresnel) by the twin of the include on the CPU, in the precision of `R`, at the quality
     /// level that `effects` holds.
     pub fn twin<R: Real>(&self, table: &Table, effects: Effects) -> [f64; 3] {
-        let v = vector::<R>;
         let surface = self.surface::<R>();
-        let lobes = table.specular(&surface, effects);
+        self.shaded(&surface, &table.specular(&surface, effects), effects)
+    }
+
+    /// The same for given lobes of its surface.
+    pub fn shaded<R: Real>(
+        &self,
+        surface: &LtcSurface<R>,
+        lobes: &LtcSpecular<R>,
+        effects: Effects,
+    ) -> [f64; 3] {
+        let v = vector::<R>;
         let value = match &self.shape {
             Shape::Quad { corners, two_sided } if effects.is_fast() => {
-                ltc_fast_quad(&surface, &lobes, corners.map(v), *two_sided)
+                ltc_fast_quad(surface, lobes, corners.map(v), *two_sided)
             }
             Shape::Quad { corners, two_sided } => {
-                polygon_value(&surface, &lobes, &corners.map(v), true, *two_sided)
+                polygon_value(surface, lobes, &corners.map(v), true, *two_sided)
             }
             Shape::Polygon { vertices, two_sided } => {
                 let vertices: Vec<R::Vec3> = vertices.iter().map(|vertex| v(*vertex)).collect();
                 if effects.is_fast() {
-                    ltc_fast_polygon(&surface, &lobes, &vertices, *two_sided)
+                    ltc_fast_polygon(surface, lobes, &vertices, *two_sided)
                 } else {
-                    polygon_value(&surface, &lobes, &vertices, false, *two_sided)
+                    polygon_value(surface, lobes, &vertices, false, *two_sided)
                 }
             }
-            other => light_value(&surface, &lobes, &other.light()),
+            other => light_value(surface, lobes, &other.light()),
         };
         [value.x(), value.y(), value.z()].map(Real::to_f64)
     }
@@ -184,7 +195,8 @@ impl Case {
         albedo * (1.0 + 1e-6) + (1e-6 / self.surface::<f64>().cos_view.max(1e-6).sqrt())
     }
 
-    fn surface<R: Real>(&self) -> LtcSurface<R> {
+    /// The surface with its frame.
+    pub fn surface<R: Real>(&self) -> LtcSurface<R> {
         let roughness = R::new(self.roughness.into());
         ltc_surface(vector::<R>(self.position), vector::<R>(self.normal), vector::<R>(self.view), roughness)
     }

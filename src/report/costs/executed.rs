@@ -3,11 +3,9 @@
 use rayon::prelude::*;
 
 use super::inputs::{self, Input};
-use super::interpreter::{ExecuteError, Executed, Interpreter};
 use super::kernel::{COMPUTE, Kernel};
-use super::operations::Operations;
-use super::values::Texels;
 use crate::TABLE_SIZE;
+use crate::interpret::{ExecuteError, Executed, Interpreter, Operations, Texels};
 
 /// What a method's executed paths take.
 #[derive(Clone, Debug)]

@@ -5,12 +5,10 @@ use rayon::prelude::*;
 
 use super::bench::{Adapter, Bench, Bound, Job};
 use super::inputs;
-use super::interpreter::Interpreter;
 use super::kernel::Kernel;
-use super::operations::Operations;
 use super::timing::{Effort, job, timed_inputs};
-use super::values::Texels;
 use crate::effects::Effects;
+use crate::interpret::{Interpreter, Operations, Texels};
 use crate::report::cost::{self, Binding, Cost, ENTRY_POINT, KERNEL, Program, StageModule};
 use crate::report::data::GrowthCurve;
 use crate::table::{Layer, Table};

@@ -10,9 +10,9 @@ use super::executed::{ExecutedCosts, executed_costs};
 use super::growth::{SCENE_BINDINGS, compiled_growth, executed_growth, growing_programs, timed_growth};
 use super::inputs;
 use super::kernel::{Kernel, baseline};
-use super::operations::Operations;
 use super::timing::{Effort, Measured, time};
 use super::{CostsError, SPECIAL_SLOTS};
+use crate::interpret::Operations;
 use crate::report::cost::Cost;
 use crate::report::data::{CostRow, GrowthCurve, Origin, Report};
 

@@ -15,14 +15,11 @@ mod compiled;
 mod executed;
 mod growth;
 pub mod inputs;
-mod interpreter;
 mod kernel;
 mod measure;
-mod memory;
-mod operations;
 mod timing;
-mod values;
 
+pub use crate::interpret::{ExecuteError, Executed, Interpreter, Operations, SPECIAL_SLOTS, Texels};
 pub use baseline::{Baseline, BaselineError, TOLERANCE};
 pub use bench::{Adapter, Bench, Bound, Job, Prepared};
 pub use callgrind::{callgrind, callgrind_child};
@@ -32,12 +29,9 @@ pub use growth::{
     Average, EFFECTS, LIGHTS, LOBES, PIXELS, SCENE_BINDINGS, VERTICES, compiled_growth, executed_growth,
     executed_on_average, growing_programs, lobes_of_one_light, scene, timed_growth,
 };
-pub use interpreter::{ExecuteError, Executed, Interpreter};
 pub use kernel::{BASELINE, COMPUTE, FRAGMENT, Kernel, MEASURE, VERTEX, baseline};
 pub use measure::{Costs, Options, measure};
-pub use operations::{Operations, SPECIAL_SLOTS};
 pub use timing::{Effort, INPUTS, Measured, Timed, time, timed_inputs};
-pub use values::Texels;
 
 /// Why costs could not be measured.
 #[derive(Debug, thiserror::Error)]

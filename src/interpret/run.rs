@@ -1,84 +1,16 @@
-//! Runs a WGSL kernel one invocation at a time and notes what it takes.
+//! Runs a WGSL kernel one invocation at a time and tells an observer of each operation.
 //!
 //! Of WGSL there is what the include and the methods that it is compared with are written in. What is missing is an
 //! error, never a guess.
 
-use std::collections::{BTreeMap, HashMap};
+use naga::{Block, Expression, Function, Handle, ImageQuery, Module, SampleLevel, Statement, TypeInner};
 
-use naga::{Block, EntryPoint, Expression, Function, Handle, Module, SampleLevel, Statement, TypeInner};
-
+use super::arithmetic;
 use super::memory::constant;
-use super::operations::{Kind, Number, Operation, Operations, Trace};
-use super::values::{self, Texels, Value};
-use crate::effects::Effects;
-use crate::translate::{TranslateError, kernel_module};
-
-/// Why a kernel could not be run.
-#[derive(Debug, thiserror::Error)]
-pub enum ExecuteError {
-    /// It is no valid WGSL.
-    #[error("{0}")]
-    Invalid(#[from] TranslateError),
-    /// It has something that the interpreter lacks.
-    #[error("the interpreter of src/report/costs has no {0}")]
-    Unsupported(String),
-    /// It reads or writes what is not there.
-    #[error("the kernel uses {0}, which it has not been given")]
-    Missing(String),
-}
-
-pub(super) fn unsupported<T>(what: impl core::fmt::Debug) -> Result<T, ExecuteError> {
-    Err(ExecuteError::Unsupported(format!("{what:?}")))
-}
-
-/// What one invocation took.
-#[derive(Clone, Debug, Default)]
-pub struct Executed {
-    /// By the place in the program: what is reached under the same conditions in the same call.
-    pub sites: BTreeMap<u32, Operations>,
-}
-
-impl Executed {
-    /// All that it took.
-    pub fn total(&self) -> Operations {
-        self.sites.values().copied().sum()
-    }
-
-    /// What a wave of invocations takes that run in step: whatever any of them takes, for as long as the longest.
-    pub fn wave<'a>(invocations: impl IntoIterator<Item = &'a Self>) -> Operations {
-        let mut sites: BTreeMap<u32, Operations> = BTreeMap::new();
-        for (site, operations) in invocations.into_iter().flat_map(|one| &one.sites) {
-            let most = sites.entry(*site).or_default();
-            *most = most.max(*operations);
-        }
-        sites.into_values().sum()
-    }
-}
-
-/// What is bound to a kernel of group 0.
-#[derive(Clone, Debug)]
-pub(super) enum Resource {
-    Buffer(Vec<u8>),
-    Texels(Texels),
-}
-
-/// A kernel with what is bound to it.
-pub struct Interpreter {
-    module: Module,
-    machine: Machine,
-}
-
-/// What changes while a kernel runs.
-#[derive(Default)]
-pub(super) struct Machine {
-    pub resources: BTreeMap<u32, Resource>,
-    pub trace: Trace,
-    pub cells: Vec<Value>,
-    /// Numbers of the places in the program, by the place around them, the call and the address of what is there.
-    sites: HashMap<(u32, u32, usize, u8), u32>,
-    /// The place around each.
-    around: Vec<u32>,
-}
+use super::number::{Kind, Number, Operation};
+use super::observer::{Observer, Place};
+use super::program::{ExecuteError, Machine, unsupported};
+use super::values::{self, Note, Path, Value};
 
 /// How a block ended.
 enum Flow {
@@ -91,6 +23,9 @@ enum Flow {
 /// A function that runs.
 struct Frame<'a> {
     function: &'a Function,
+    lines: &'a [u32],
+    /// The number of its first expression.
+    first: u32,
     arguments: Vec<Value>,
     values: Vec<Option<Value>>,
     /// Index of its first local variable's cell.
@@ -103,76 +38,26 @@ struct Frame<'a> {
     turning: bool,
 }
 
-impl Interpreter {
-    /// A kernel of a WGSL text with the switches of a set of effects.
-    ///
-    /// # Errors
-    ///
-    /// If the text is not valid or has no such entry point.
-    pub fn new(source: &str, entry_point: &str, effects: Effects) -> Result<Self, ExecuteError> {
-        let (module, _) = kernel_module(source, entry_point, effects)?;
-        Ok(Self { module, machine: Machine { around: vec![0], ..Machine::default() } })
-    }
-
-    /// Binds a buffer.
-    pub fn bind_buffer(&mut self, binding: u32, bytes: Vec<u8>) {
-        self.machine.resources.insert(binding, Resource::Buffer(bytes));
-    }
-
-    /// Binds a texture array.
-    pub fn bind_texels(&mut self, binding: u32, texels: Texels) {
-        self.machine.resources.insert(binding, Resource::Texels(texels));
-    }
-
-    /// What a buffer holds.
-    pub fn buffer(&self, binding: u32) -> &[u8] {
-        match self.machine.resources.get(&binding) {
-            Some(Resource::Buffer(bytes)) => bytes,
-            _ => &[],
-        }
-    }
-
-    /// Runs the invocation of the given number.
-    ///
-    /// # Errors
-    ///
-    /// If the kernel has something that the interpreter lacks.
-    pub fn run(&mut self, invocation: u32) -> Result<Executed, ExecuteError> {
-        let Some(EntryPoint { function, .. }) = self.module.entry_points.first() else {
-            return unsupported("kernel without an entry point");
-        };
-        self.machine.trace.clear();
-        self.machine.cells.clear();
-        // Which invocation it is, is not known beforehand: it is read like a word of a buffer.
-        let number = self.machine.trace.note(
-            Operation::Load(u32::MAX, 0),
-            &[],
-            (invocation, Kind::Uint),
-            0,
-            |_, _| false,
-        );
-        let zero = Number::constant(0, Kind::Uint);
-        let arguments = vec![Value::vector(&[number, zero, zero])];
-        let mut context = Context { module: &self.module, on: &mut self.machine };
-        context.call(function, arguments, 0, 0)?;
-        Ok(Executed { sites: self.machine.trace.operations() })
-    }
-}
-
-pub(super) struct Context<'a> {
+pub(super) struct Context<'a, O> {
     pub module: &'a Module,
-    pub on: &'a mut Machine,
+    pub lines: &'a [Vec<u32>],
+    pub firsts: &'a [u32],
+    /// The last line that was known.
+    pub line: u32,
+    /// The expression that is evaluated.
+    pub expression: u32,
+    pub on: &'a mut Machine<O>,
 }
 
-impl<'a> Context<'a> {
+impl<'a, O: Observer> Context<'a, O> {
     /// The place of the `kind`-th part of what lies at an address, within another place.
     fn site<T>(&mut self, frame: &Frame, at: &T, part: u8) -> u32 {
-        let key = (frame.site, frame.call, core::ptr::from_ref(at) as usize, part);
-        let around = &mut self.on.around;
-        *self.on.sites.entry(key).or_insert_with(|| {
-            around.push(frame.site);
-            around.len() as u32 - 1
-        })
+        let address = core::ptr::from_ref(at) as usize;
+        self.on.observer.site(frame.site, frame.call, address, part)
+    }
+
+    pub(super) fn place(&self, site: u32) -> Place {
+        Place { site, line: self.line, expression: self.expression }
     }
 
     pub(super) fn note(
@@ -182,20 +67,18 @@ impl<'a> Context<'a> {
         result: (u32, Kind),
         site: u32,
     ) -> Number {
-        let around = &self.on.around;
-        let sees = |from: u32, to: u32| {
-            let mut place = to;
-            while place > from {
-                place = around[place as usize];
-            }
-            place == from
-        };
-        self.on.trace.note(operation, operands, result, site, sees)
+        let place = self.place(site);
+        self.on.observer.note(operation, operands, result, place)
     }
 
-    fn call(
+    fn branch(&mut self, condition: Number, site: u32) {
+        let place = self.place(site);
+        self.on.observer.branch(condition, place);
+    }
+
+    pub(super) fn call(
         &mut self,
-        function: &'a Function,
+        (function, index): (&'a Function, usize),
         arguments: Vec<Value>,
         site: u32,
         call: u32,
@@ -203,6 +86,8 @@ impl<'a> Context<'a> {
         let cells = self.on.cells.len();
         let mut frame = Frame {
             function,
+            lines: &self.lines[index],
+            first: self.firsts[index],
             arguments,
             values: vec![None; function.expressions.len()],
             cells,
@@ -245,6 +130,7 @@ impl<'a> Context<'a> {
     }
 
     fn statement(&mut self, frame: &mut Frame<'a>, statement: &'a Statement) -> Result<Flow, ExecuteError> {
+        self.on.left = self.on.left.checked_sub(1).ok_or(ExecuteError::Endless { line: self.line })?;
         match statement {
             Statement::Emit(range) => {
                 for handle in range.clone() {
@@ -256,7 +142,7 @@ impl<'a> Context<'a> {
             Statement::If { condition, accept, reject } => {
                 let condition = self.number(frame, *condition)?;
                 let decided = condition.node == 0;
-                self.on.trace.branch(condition, frame.site);
+                self.branch(condition, frame.site);
                 let (taken, part) = if condition.truth() { (accept, 0) } else { (reject, 1) };
                 let site = if decided { frame.site } else { self.site(frame, statement, part) };
                 let flow = self.within(frame, taken, site)?;
@@ -281,7 +167,7 @@ impl<'a> Context<'a> {
                     let equal = Operation::Binary(naga::BinaryOperator::Equal);
                     let same = u32::from(value == selector.bits);
                     let outcome = self.note(equal, &[selector, constant], (same, Kind::Bool), frame.site);
-                    self.on.trace.branch(outcome, frame.site);
+                    self.branch(outcome, frame.site);
                     if outcome.truth() {
                         chosen = Some(index);
                         break;
@@ -313,7 +199,7 @@ impl<'a> Context<'a> {
                     frame.turning = false;
                     if let Some(condition) = break_if {
                         let condition = self.number(frame, *condition)?;
-                        self.on.trace.branch(condition, site);
+                        self.branch(condition, site);
                         if condition.truth() {
                             break Flow::Next;
                         }
@@ -346,7 +232,8 @@ impl<'a> Context<'a> {
                     .collect::<Result<_, _>>()?;
                 // Compilers put the body in the place of the call.
                 let call = self.site(frame, statement, 3);
-                let value = self.call(&self.module.functions[*function], arguments, frame.site, call)?;
+                let callee = (&self.module.functions[*function], function.index());
+                let value = self.call(callee, arguments, frame.site, call)?;
                 if let (Some(result), Some(value)) = (result, value) {
                     frame.values[result.index()] = Some(value);
                 }
@@ -373,6 +260,21 @@ impl<'a> Context<'a> {
     fn evaluate(&mut self, frame: &mut Frame<'a>, handle: Handle<Expression>) -> Result<Value, ExecuteError> {
         let site = frame.site;
         let function = frame.function;
+        let line = frame.lines[handle.index()];
+        // What is not computed is evaluated in the midst of what reads it, whose place this is.
+        let is_computed = !matches!(
+            function.expressions[handle],
+            Expression::Literal(_)
+                | Expression::Constant(_)
+                | Expression::ZeroValue(_)
+                | Expression::FunctionArgument(_)
+                | Expression::GlobalVariable(_)
+                | Expression::LocalVariable(_)
+        );
+        if is_computed {
+            self.expression = frame.first + handle.index() as u32;
+            self.line = if line == 0 { self.line } else { line };
+        }
         let mut of = |this: &mut Self, handle: &Handle<Expression>| this.value(frame, *handle);
         match &function.expressions[handle] {
             Expression::Literal(literal) => constant(literal),
@@ -381,7 +283,7 @@ impl<'a> Context<'a> {
             Expression::FunctionArgument(index) => Ok(frame.arguments[*index as usize].clone()),
             Expression::GlobalVariable(global) => self.variable(*global),
             Expression::LocalVariable(local) => {
-                Ok(Value::Local { cell: frame.cells + local.index(), path: Vec::new() })
+                Ok(Value::Local { cell: frame.cells + local.index(), path: Path::default() })
             }
             Expression::Compose { ty, components } => {
                 let parts = components.iter().map(|part| of(self, part)).collect::<Result<Vec<_>, _>>()?;
@@ -436,17 +338,25 @@ impl<'a> Context<'a> {
                 }
                 other => unsupported(other),
             },
+            Expression::ImageQuery { image, query: ImageQuery::Size { level: None } } => {
+                let image = of(self, image)?;
+                let Value::Handle(binding) = image else { return unsupported(image) };
+                let size = self.texels(binding)?.size() as u32;
+                let word = |at| Operation::Load(u32::MAX - 1 - at, binding);
+                let part = |at| self.note(word(at), &[], (size, Kind::Uint), site);
+                Ok(Value::vector(&[0, 1].map(part)))
+            }
             Expression::Unary { op, expr } => {
                 let value = of(self, expr)?;
                 let run = |this: &mut Self, n: &[Number]| {
-                    let result = values::unary(*op, n[0])?;
+                    let result = arithmetic::unary(*op, n[0])?;
                     Ok(this.note(Operation::Unary(*op), n, result, site))
                 };
                 values::each(&[&value], |numbers| run(self, numbers))
             }
             Expression::Binary { op, left, right } => {
                 let (left, right) = (of(self, left)?, of(self, right)?);
-                values::binary(*op, &left, &right, &mut self.noter(site))
+                arithmetic::binary(*op, &left, &right, &mut self.noter(site))
             }
             Expression::Select { condition, accept, reject } => {
                 let (condition, accept, reject) =
@@ -458,19 +368,19 @@ impl<'a> Context<'a> {
             }
             Expression::Relational { fun, argument } => {
                 let argument = of(self, argument)?;
-                values::relational(*fun, &argument, &mut self.noter(site))
+                arithmetic::relational(*fun, &argument, &mut self.noter(site))
             }
             Expression::Math { fun, arg, arg1, arg2, .. } => {
                 let mut arguments = vec![of(self, arg)?];
                 for more in [arg1, arg2].into_iter().flatten() {
                     arguments.push(of(self, more)?);
                 }
-                values::math(*fun, &arguments, &mut self.noter(site))
+                arithmetic::math(*fun, &arguments, &mut self.noter(site))
             }
             Expression::As { expr, kind, convert } => {
                 let value = of(self, expr)?;
                 values::each(&[&value], |n| {
-                    let (operation, result) = values::convert(n[0], *kind, convert.is_some())?;
+                    let (operation, result) = arithmetic::convert(n[0], *kind, convert.is_some())?;
                     Ok(if result.1 == n[0].kind { n[0] } else { self.note(operation, n, result, site) })
                 })
             }
@@ -478,8 +388,23 @@ impl<'a> Context<'a> {
         }
     }
 
-    fn noter(&mut self, site: u32) -> impl FnMut(Operation, &[Number], (u32, Kind)) -> Number {
-        move |operation, operands, result| self.note(operation, operands, result, site)
+    fn noter(&mut self, site: u32) -> Noter<'_, O> {
+        let place = self.place(site);
+        Noter { observer: &mut self.on.observer, place }
+    }
+}
+
+/// Tells an observer of operations at a place.
+pub(super) struct Noter<'a, O> {
+    observer: &'a mut O,
+    place: Place,
+}
+
+impl<O: Observer> Note for Noter<'_, O> {
+    const AS_STATED: bool = O::AS_STATED;
+
+    fn note(&mut self, operation: Operation, operands: &[Number], result: (u32, Kind)) -> Number {
+        self.observer.note(operation, operands, result, self.place)
     }
 }
 

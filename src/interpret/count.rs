@@ -3,7 +3,15 @@
 
 use std::collections::{BTreeMap, HashMap};
 
+use std::sync::Arc;
+
 use naga::{BinaryOperator, MathFunction, UnaryOperator};
+
+use super::number::{Kind, Number, Operation};
+use super::observer::{Observer, Place};
+use super::program::{ExecuteError, Machine, Program, Resource};
+use super::texels::Texels;
+use crate::effects::Effects;
 
 /// Operations on single numbers, by the unit of a processor that does them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -71,59 +79,6 @@ impl core::iter::Sum for Operations {
     }
 }
 
-/// What a number is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Kind {
-    Float,
-    Uint,
-    Sint,
-    Bool,
-}
-
-/// A number and what made it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Number {
-    pub bits: u32,
-    pub kind: Kind,
-    /// Index of the operation; 0 for what is known before the program runs.
-    pub node: u32,
-}
-
-impl Number {
-    pub const fn constant(bits: u32, kind: Kind) -> Self {
-        Self { bits, kind, node: 0 }
-    }
-    pub fn float(self) -> f32 {
-        f32::from_bits(self.bits)
-    }
-    pub fn truth(self) -> bool {
-        self.bits != 0
-    }
-    fn is(self, value: f32) -> bool {
-        self.node == 0 && self.kind == Kind::Float && self.float() == value
-    }
-}
-
-/// An operation on up to three numbers. Those on vectors have been taken apart.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) enum Operation {
-    /// The word of that offset in the buffer of that binding.
-    Load(u32, u32),
-    /// A sample of the texture of that binding.
-    Sample(u32),
-    /// A component of it.
-    Component(u32),
-    Unary(UnaryOperator),
-    Binary(BinaryOperator),
-    Math(MathFunction),
-    /// A step of a loop's counter.
-    Turn,
-    Select,
-    Convert(Kind),
-    Bitcast(Kind),
-    Branch,
-}
-
 impl Operation {
     /// What it takes; `divisor` tells of a division what is known beforehand: the dividend is 1, the divisor is.
     fn cost(self, kind: Kind, one_over: bool, by_constant: bool) -> Operations {
@@ -185,6 +140,30 @@ impl Operation {
     }
 }
 
+/// What one invocation took.
+#[derive(Clone, Debug, Default)]
+pub struct Executed {
+    /// By the place in the program: what is reached under the same conditions in the same call.
+    pub sites: BTreeMap<u32, Operations>,
+}
+
+impl Executed {
+    /// All that it took.
+    pub fn total(&self) -> Operations {
+        self.sites.values().copied().sum()
+    }
+
+    /// What a wave of invocations takes that run in step: whatever any of them takes, for as long as the longest.
+    pub fn wave<'a>(invocations: impl IntoIterator<Item = &'a Self>) -> Operations {
+        let mut sites: BTreeMap<u32, Operations> = BTreeMap::new();
+        for (site, operations) in invocations.into_iter().flat_map(|one| &one.sites) {
+            let most = sites.entry(*site).or_default();
+            *most = most.max(*operations);
+        }
+        sites.into_values().sum()
+    }
+}
+
 #[derive(Clone, Debug)]
 struct Node {
     operation: Operation,
@@ -195,11 +174,131 @@ struct Node {
     site: u32,
 }
 
+/// A kernel with what is bound to it, and what its invocations take.
+pub struct Interpreter {
+    program: Program,
+    machine: Machine<Counting>,
+}
+
+impl Interpreter {
+    /// A kernel of a WGSL text with the switches of a set of effects.
+    ///
+    /// # Errors
+    ///
+    /// If the text is not valid or has no such entry point.
+    pub fn new(source: &str, entry_point: &str, effects: Effects) -> Result<Self, ExecuteError> {
+        let program = Program::new(source, entry_point, effects)?;
+        let counting = Counting { around: vec![0], ..Counting::default() };
+        Ok(Self { program, machine: Machine::new(counting) })
+    }
+
+    /// Binds a buffer.
+    pub fn bind_buffer(&mut self, binding: u32, bytes: Vec<u8>) {
+        self.machine.resources.insert(binding, Resource::Buffer(bytes));
+    }
+
+    /// Binds a texture array.
+    pub fn bind_texels(&mut self, binding: u32, texels: Texels) {
+        self.machine.resources.insert(binding, Resource::Texels(Arc::new(texels)));
+    }
+
+    /// What a buffer holds.
+    pub fn buffer(&self, binding: u32) -> &[u8] {
+        match self.machine.resources.get(&binding) {
+            Some(Resource::Buffer(bytes)) => bytes,
+            _ => &[],
+        }
+    }
+
+    /// Runs the invocation of the given number.
+    ///
+    /// # Errors
+    ///
+    /// If the kernel has something that the interpreter lacks.
+    pub fn run(&mut self, invocation: u32) -> Result<Executed, ExecuteError> {
+        self.program.run(&mut self.machine, invocation)?;
+        Ok(Executed { sites: self.machine.observer.trace.operations() })
+    }
+}
+
+/// Counts what an invocation takes.
+#[derive(Default)]
+struct Counting {
+    trace: Trace,
+    /// Numbers of the places in the program, by the place around them, the call and the address of what is there.
+    sites: HashMap<(u32, u32, usize, u8), u32>,
+    /// The place around each.
+    around: Vec<u32>,
+}
+
+impl Observer for Counting {
+    const AS_STATED: bool = false;
+
+    fn begin(&mut self) {
+        self.trace.clear();
+    }
+
+    fn note(
+        &mut self,
+        operation: Operation,
+        operands: &[Number],
+        result: (u32, Kind),
+        place: Place,
+    ) -> Number {
+        let around = &self.around;
+        let sees = |from: u32, to: u32| {
+            let mut place = to;
+            while place > from {
+                place = around[place as usize];
+            }
+            place == from
+        };
+        self.trace.note(operation, operands, result, place.site, sees)
+    }
+
+    fn sample(
+        &mut self,
+        binding: u32,
+        texels: &Texels,
+        [x, y]: [Number; 2],
+        layer: Number,
+        place: Place,
+    ) -> [Number; 4] {
+        let texel = texels.sample(x.float(), y.float(), layer.bits as usize);
+        let sample = self.note(Operation::Sample(binding), &[x, y, layer], (0, Kind::Float), place);
+        [0, 1, 2, 3].map(|at: usize| {
+            let result = (texel[at].to_bits(), Kind::Float);
+            self.note(Operation::Component(at as u32), &[sample], result, place)
+        })
+    }
+
+    fn branch(&mut self, condition: Number, place: Place) {
+        // One on a condition that is known beforehand is none.
+        if condition.node != 0 {
+            let branch =
+                self.trace.note(Operation::Branch, &[condition], (0, Kind::Bool), place.site, |_, _| false);
+            self.trace.roots.push(branch.node);
+        }
+    }
+
+    fn written(&mut self, number: Number) {
+        self.trace.roots.push(number.node);
+    }
+
+    fn site(&mut self, around: u32, call: u32, address: usize, part: u8) -> u32 {
+        let places = &mut self.around;
+        *self.sites.entry((around, call, address, part)).or_insert_with(|| {
+            places.push(around);
+            places.len() as u32 - 1
+        })
+    }
+}
+
 /// The operations of one invocation.
 ///
 /// What is known beforehand takes none; what was computed before where it is seen from here is not computed again.
 #[derive(Default)]
-pub(super) struct Trace {
+struct Trace {
     nodes: Vec<Node>,
     known: HashMap<(Operation, [u64; 3]), u32>,
     roots: Vec<u32>,
@@ -253,19 +352,6 @@ impl Trace {
         let node = self.nodes.len() as u32;
         self.known.insert((operation, key), node);
         Number { bits, kind, node }
-    }
-
-    /// Notes that the outcome depends on a number: it is written, or decides a branch.
-    pub fn need(&mut self, number: Number) {
-        self.roots.push(number.node);
-    }
-
-    /// Notes a branch on a condition, which is none where that is known beforehand.
-    pub fn branch(&mut self, condition: Number, site: u32) {
-        if condition.node != 0 {
-            let branch = self.note(Operation::Branch, &[condition], (0, Kind::Bool), site, |_, _| false);
-            self.need(branch);
-        }
     }
 
     /// What the operations that the outcome depends on take, by site. A sum takes one product with it that nothing else

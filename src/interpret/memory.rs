@@ -2,11 +2,14 @@
 
 use naga::{Expression, GlobalVariable, Handle, Literal, Type, TypeInner};
 
-use super::interpreter::{Context, ExecuteError, Resource, unsupported};
-use super::operations::{Kind, Number, Operation};
+use super::number::{Kind, Number, Operation};
+use super::observer::Observer;
+use super::program::{ExecuteError, Resource, unsupported};
+use super::run::Context;
+use super::texels::Texels;
 use super::values::{self, Value};
 
-impl Context<'_> {
+impl<O: Observer> Context<'_, O> {
     /// A constant expression outside of functions.
     pub(super) fn global(&self, handle: Handle<Expression>) -> Result<Value, ExecuteError> {
         match &self.module.global_expressions[handle] {
@@ -40,17 +43,22 @@ impl Context<'_> {
     pub(super) fn bytes(&self, binding: u32) -> Result<&[u8], ExecuteError> {
         match self.on.resources.get(&binding) {
             Some(Resource::Buffer(bytes)) => Ok(bytes),
+            Some(Resource::Shared(bytes)) => Ok(bytes),
             _ => Err(ExecuteError::Missing(format!("a buffer at binding {binding}"))),
+        }
+    }
+
+    pub(super) fn texels(&self, binding: u32) -> Result<&Texels, ExecuteError> {
+        match self.on.resources.get(&binding) {
+            Some(Resource::Texels(texels)) => Ok(texels),
+            _ => Err(ExecuteError::Missing(format!("a texture at binding {binding}"))),
         }
     }
 
     /// A part of a value or of what a pointer leads to.
     pub(super) fn access(&self, base: Value, index: u32) -> Result<Value, ExecuteError> {
         match base {
-            Value::Local { cell, mut path } => {
-                path.push(index);
-                Ok(Value::Local { cell, path })
-            }
+            Value::Local { cell, path } => Ok(Value::Local { cell, path: path.and(index)? }),
             Value::Buffer { binding, offset, kind } => {
                 let (step, kind) = match &self.module.types[kind].inner {
                     TypeInner::Array { base, stride, .. } => (index * stride, *base),
@@ -73,10 +81,10 @@ impl Context<'_> {
         match *pointer {
             Value::Local { cell, ref path } => {
                 let mut value = &self.on.cells[cell];
-                for (at, index) in path.iter().enumerate() {
+                for (at, index) in path.indices().iter().enumerate() {
                     match value {
                         Value::Composite(parts) => value = &parts[*index as usize],
-                        Value::Vector(..) if at + 1 == path.len() => {
+                        Value::Vector(..) if at + 1 == path.indices().len() => {
                             return value.clone().part(*index as usize);
                         }
                         other => return unsupported(other),
@@ -112,14 +120,14 @@ impl Context<'_> {
 
     pub(super) fn store(&mut self, pointer: &Value, value: Value) -> Result<(), ExecuteError> {
         match pointer {
-            Value::Local { cell, path } => self.on.cells[*cell].set(path, value),
+            Value::Local { cell, path } => self.on.cells[*cell].set(path.indices(), value),
             Value::Buffer { binding, offset, .. } | Value::Word { binding, offset, .. } => {
                 let numbers = match &value {
                     Value::Scalar(number) => core::slice::from_ref(number),
                     Value::Vector(size, numbers) => &numbers[..*size],
                     other => return unsupported(other),
                 };
-                numbers.iter().for_each(|number| self.on.trace.need(*number));
+                numbers.iter().for_each(|number| self.on.observer.written(*number));
                 let Some(Resource::Buffer(bytes)) = self.on.resources.get_mut(binding) else {
                     return Err(ExecuteError::Missing(format!("a buffer at binding {binding}")));
                 };
@@ -145,18 +153,13 @@ impl Context<'_> {
         site: u32,
     ) -> Result<Value, ExecuteError> {
         let &Value::Handle(binding) = image else { return unsupported(image) };
+        let (x, y) = (coordinate.component(0)?, coordinate.component(1)?);
+        let layer = layer.map_or(Ok(Number::constant(0, Kind::Sint)), |layer| layer.component(0))?;
+        let place = self.place(site);
         let Some(Resource::Texels(texels)) = self.on.resources.get(&binding) else {
             return Err(ExecuteError::Missing(format!("a texture at binding {binding}")));
         };
-        let (x, y) = (coordinate.component(0)?, coordinate.component(1)?);
-        let layer = layer.map_or(Ok(Number::constant(0, Kind::Sint)), |layer| layer.component(0))?;
-        let texel = texels.sample(x.float(), y.float(), layer.bits as usize);
-        let sample = self.note(Operation::Sample(binding), &[x, y, layer], (0, Kind::Float), site);
-        let part = |at: usize| {
-            self.note(Operation::Component(at as u32), &[sample], (texel[at].to_bits(), Kind::Float), site)
-        };
-        let [a, b, c, d] = [0, 1, 2, 3].map(part);
-        Ok(Value::vector(&[a, b, c, d]))
+        Ok(Value::vector(&self.on.observer.sample(binding, texels, [x, y], layer, place)))
     }
 }
 

@@ -1,211 +1,10 @@
-//! The values that a kernel computes, and the arithmetic on them: WGSL's, each operation rounded to single precision.
+//! The arithmetic on values: WGSL's, each operation rounded to the nearest number of single precision.
 
-use half::f16;
-use naga::{
-    BinaryOperator, Handle, MathFunction, Module, RelationalFunction, ScalarKind, Type, TypeInner,
-    UnaryOperator,
-};
+use naga::{BinaryOperator, MathFunction, RelationalFunction, ScalarKind, UnaryOperator};
 
-use super::interpreter::{ExecuteError, unsupported};
-use super::operations::{Kind, Number, Operation};
-
-/// A value or a pointer.
-#[derive(Clone, Debug)]
-pub(super) enum Value {
-    Scalar(Number),
-    Vector(usize, [Number; 4]),
-    /// A structure, an array, or a matrix by columns.
-    Composite(Vec<Value>),
-    /// A pointer into a local variable.
-    Local {
-        cell: usize,
-        path: Vec<u32>,
-    },
-    /// A pointer into a buffer.
-    Buffer {
-        binding: u32,
-        offset: u32,
-        kind: Handle<Type>,
-    },
-    /// A pointer to a number in a buffer.
-    Word {
-        binding: u32,
-        offset: u32,
-        kind: Kind,
-    },
-    /// A texture or a sampler.
-    Handle(u32),
-}
-
-const NOTHING: Number = Number::constant(0, Kind::Float);
-
-/// Notes an operation on numbers and what it comes to.
-pub(super) trait Note: FnMut(Operation, &[Number], (u32, Kind)) -> Number {}
-impl<F: FnMut(Operation, &[Number], (u32, Kind)) -> Number> Note for F {}
-
-type Outcome = Result<Value, ExecuteError>;
-
-impl Value {
-    pub fn vector(numbers: &[Number]) -> Self {
-        let mut all = [NOTHING; 4];
-        all[..numbers.len()].copy_from_slice(numbers);
-        Self::Vector(numbers.len(), all)
-    }
-
-    /// A component of a vector; a scalar stands for a vector of itself.
-    pub fn component(&self, at: usize) -> Result<Number, ExecuteError> {
-        match self {
-            Self::Scalar(number) => Ok(*number),
-            Self::Vector(size, numbers) if at < *size => Ok(numbers[at]),
-            other => unsupported(other),
-        }
-    }
-
-    pub fn part(self, at: usize) -> Outcome {
-        match self {
-            Self::Vector(size, numbers) if at < size => Ok(Self::Scalar(numbers[at])),
-            Self::Composite(mut parts) if at < parts.len() => Ok(parts.swap_remove(at)),
-            other => unsupported(other),
-        }
-    }
-
-    pub fn set(&mut self, path: &[u32], value: Self) -> Result<(), ExecuteError> {
-        let Some((first, rest)) = path.split_first() else {
-            *self = value;
-            return Ok(());
-        };
-        match (self, value) {
-            (Self::Composite(parts), value) => parts[*first as usize].set(rest, value),
-            (Self::Vector(_, numbers), Self::Scalar(number)) => {
-                numbers[*first as usize] = number;
-                Ok(())
-            }
-            (_, value) => unsupported(value),
-        }
-    }
-
-    fn size(&self) -> Result<usize, ExecuteError> {
-        match self {
-            Self::Scalar(_) => Ok(1),
-            Self::Vector(size, _) => Ok(*size),
-            other => unsupported(other),
-        }
-    }
-}
-
-/// A texture array of half-precision texels, filtered linearly and clamped to its edge.
-#[derive(Clone, Debug)]
-pub struct Texels {
-    size: usize,
-    texels: Vec<[f32; 4]>,
-}
-
-impl Texels {
-    /// Layers of `size` by `size` texels as a table's file holds them.
-    pub fn new(size: usize, bytes: &[u8]) -> Self {
-        let half = |bytes: &[u8]| f16::from_le_bytes([bytes[0], bytes[1]]).to_f32();
-        let texel = |bytes: &[u8]| [0, 2, 4, 6].map(|at| half(&bytes[at..]));
-        Self { size, texels: bytes.chunks_exact(8).map(texel).collect() }
-    }
-
-    pub(super) fn sample(&self, x: f32, y: f32, layer: usize) -> [f32; 4] {
-        let place = |at: f32| {
-            let scaled = at * self.size as f32 - 0.5;
-            let low = scaled.floor();
-            let edge = |index: f32| index.clamp(0.0, self.size as f32 - 1.0) as usize;
-            (edge(low), edge(low + 1.0), scaled - low)
-        };
-        let ((left, right, u), (top, bottom, v)) = (place(x), place(y));
-        let layer = layer.min(self.texels.len() / (self.size * self.size) - 1);
-        let at = |x: usize, y: usize| self.texels[(layer * self.size + y) * self.size + x];
-        let blend = |a: [f32; 4], b: [f32; 4], t: f32| [0, 1, 2, 3].map(|i| a[i] + (b[i] - a[i]) * t);
-        blend(blend(at(left, top), at(right, top), u), blend(at(left, bottom), at(right, bottom), u), v)
-    }
-}
-
-pub(super) fn kind(kind: ScalarKind) -> Result<Kind, ExecuteError> {
-    match kind {
-        ScalarKind::Float => Ok(Kind::Float),
-        ScalarKind::Uint => Ok(Kind::Uint),
-        ScalarKind::Sint => Ok(Kind::Sint),
-        ScalarKind::Bool => Ok(Kind::Bool),
-        other => unsupported(other),
-    }
-}
-
-/// The value of a type whose numbers, at their offsets in memory, a function tells.
-pub(super) fn read(
-    module: &Module,
-    handle: Handle<Type>,
-    offset: u32,
-    word: &mut dyn FnMut(u32, Kind) -> Result<Number, ExecuteError>,
-) -> Outcome {
-    match &module.types[handle].inner {
-        TypeInner::Scalar(scalar) => Ok(Value::Scalar(word(offset, kind(scalar.kind)?)?)),
-        TypeInner::Vector { size, scalar } => {
-            let kind = kind(scalar.kind)?;
-            let numbers = (0..*size as u32).map(|at| word(offset + 4 * at, kind));
-            Ok(Value::vector(&numbers.collect::<Result<Vec<_>, _>>()?))
-        }
-        TypeInner::Matrix { columns, rows, .. } => {
-            let stride = if *rows as u32 == 2 { 8 } else { 16 };
-            let mut column = |at: u32| {
-                let numbers = (0..*rows as u32).map(|row| word(offset + stride * at + 4 * row, Kind::Float));
-                Ok(Value::vector(&numbers.collect::<Result<Vec<_>, ExecuteError>>()?))
-            };
-            Ok(Value::Composite((0..*columns as u32).map(&mut column).collect::<Result<_, ExecuteError>>()?))
-        }
-        TypeInner::Struct { members, .. } => {
-            let parts = members.iter().map(|member| read(module, member.ty, offset + member.offset, word));
-            Ok(Value::Composite(parts.collect::<Result<_, _>>()?))
-        }
-        TypeInner::Array { base, size: naga::ArraySize::Constant(count), stride } => {
-            let parts = (0..count.get()).map(|at| read(module, *base, offset + at * stride, word));
-            Ok(Value::Composite(parts.collect::<Result<_, _>>()?))
-        }
-        other => unsupported(other),
-    }
-}
-
-pub(super) fn zero(module: &Module, handle: Handle<Type>) -> Outcome {
-    read(module, handle, 0, &mut |_, kind| Ok(Number::constant(0, kind)))
-}
-
-pub(super) fn compose(inner: &TypeInner, parts: Vec<Value>) -> Outcome {
-    match inner {
-        TypeInner::Vector { .. } => {
-            let mut numbers = Vec::new();
-            for part in &parts {
-                for at in 0..part.size()? {
-                    numbers.push(part.component(at)?);
-                }
-            }
-            Ok(Value::vector(&numbers))
-        }
-        // Columns may be given number by number.
-        TypeInner::Matrix { rows, .. } if matches!(parts[0], Value::Scalar(_)) => {
-            let numbers = parts.iter().map(|part| part.component(0)).collect::<Result<Vec<_>, _>>()?;
-            Ok(Value::Composite(numbers.chunks(*rows as usize).map(Value::vector).collect()))
-        }
-        _ => Ok(Value::Composite(parts)),
-    }
-}
-
-/// Applies an operation on numbers to each component; scalars stand for vectors of themselves.
-pub(super) fn each(
-    values: &[&Value],
-    mut with: impl FnMut(&[Number]) -> Result<Number, ExecuteError>,
-) -> Outcome {
-    let mut sizes = values.iter().map(|value| value.size());
-    let size = sizes.try_fold(1, |most, size| size.map(|size| most.max(size)))?;
-    let mut result = [NOTHING; 4];
-    for (at, number) in result[..size].iter_mut().enumerate() {
-        let operands = values.iter().map(|value| value.component(at)).collect::<Result<Vec<_>, _>>()?;
-        *number = with(&operands)?;
-    }
-    let scalar = values.iter().all(|value| matches!(value, Value::Scalar(_)));
-    Ok(if scalar { Value::Scalar(result[0]) } else { Value::vector(&result[..size]) })
-}
+use super::number::{Kind, Number, Operation};
+use super::program::{ExecuteError, unsupported};
+use super::values::{Note, Outcome, Value, composite, each, kind};
 
 fn float(value: f32) -> (u32, Kind) {
     (value.to_bits(), Kind::Float)
@@ -281,21 +80,22 @@ pub(super) fn binary(operator: BinaryOperator, left: &Value, right: &Value, note
         }
         (Value::Composite(_), Value::Composite(columns)) if operator == B::Multiply => {
             let columns = columns.iter().map(|column| binary(operator, left, column, note));
-            Ok(Value::Composite(columns.collect::<Result<_, _>>()?))
+            Ok(composite(columns.collect::<Result<_, _>>()?))
         }
         (Value::Composite(columns), Value::Scalar(_)) if operator == B::Multiply => {
             let columns = columns.iter().map(|column| binary(operator, column, right, note));
-            Ok(Value::Composite(columns.collect::<Result<_, _>>()?))
+            Ok(composite(columns.collect::<Result<_, _>>()?))
         }
         (Value::Scalar(_), Value::Composite(_)) if operator == B::Multiply => {
             binary(operator, right, left, note)
         }
         (Value::Composite(left), Value::Composite(right)) => {
-            let columns = left.iter().zip(right).map(|(left, right)| binary(operator, left, right, note));
-            Ok(Value::Composite(columns.collect::<Result<_, _>>()?))
+            let columns =
+                left.iter().zip(right.iter()).map(|(left, right)| binary(operator, left, right, note));
+            Ok(composite(columns.collect::<Result<_, _>>()?))
         }
         _ => each(&[left, right], |n| {
-            Ok(note(Operation::Binary(operator), n, scalar_binary(operator, n[0], n[1])?))
+            Ok(note.note(Operation::Binary(operator), n, scalar_binary(operator, n[0], n[1])?))
         }),
     }
 }
@@ -310,7 +110,7 @@ pub(super) fn relational(fun: RelationalFunction, argument: &Value, note: &mut i
     for at in 1..argument.size()? {
         let next = argument.component(at)?;
         let outcome = scalar_binary(operator, result, next)?;
-        result = note(Operation::Binary(operator), &[result, next], outcome);
+        result = note.note(Operation::Binary(operator), &[result, next], outcome);
     }
     Ok(Value::Scalar(result))
 }
@@ -382,7 +182,7 @@ fn scalar_math(function: MathFunction, n: &[Number]) -> Result<(u32, Kind), Exec
     }))
 }
 
-pub(super) fn math(function: MathFunction, arguments: &[Value], note: &mut impl Note) -> Outcome {
+pub(super) fn math<N: Note>(function: MathFunction, arguments: &[Value], note: &mut N) -> Outcome {
     use BinaryOperator as B;
     use MathFunction as M;
     let [a, b, c] = [0, 1, 2].map(|at| arguments.get(at).unwrap_or(&arguments[0]));
@@ -408,6 +208,7 @@ pub(super) fn math(function: MathFunction, arguments: &[Value], note: &mut impl 
             let right = binary(B::Multiply, &turned(a, 2)?, &turned(b, 1)?, note)?;
             binary(B::Subtract, &left, &right, note)
         }
+        M::Length if matches!(a, Value::Scalar(_)) => math(M::Abs, core::slice::from_ref(a), note),
         M::Length => {
             let squared = math(M::Dot, &[a.clone(), a.clone()], note)?;
             math(M::Sqrt, &[squared], note)
@@ -417,6 +218,10 @@ pub(super) fn math(function: MathFunction, arguments: &[Value], note: &mut impl 
             math(M::Length, &[difference], note)
         }
         M::Normalize => {
+            if N::AS_STATED {
+                let length = math(M::Length, core::slice::from_ref(a), note)?;
+                return binary(B::Divide, a, &length, note);
+            }
             let squared = math(M::Dot, &[a.clone(), a.clone()], note)?;
             let inverse = math(M::InverseSqrt, &[squared], note)?;
             binary(B::Multiply, a, &inverse, note)
@@ -426,6 +231,22 @@ pub(super) fn math(function: MathFunction, arguments: &[Value], note: &mut impl 
             let twice = binary(B::Multiply, &along, &Value::Scalar(constant_float(2.0)), note)?;
             let step = binary(B::Multiply, b, &twice, note)?;
             binary(B::Subtract, a, &step, note)
+        }
+        M::Mix if N::AS_STATED => {
+            let rest = binary(B::Subtract, &Value::Scalar(constant_float(1.0)), c, note)?;
+            let first = binary(B::Multiply, a, &rest, note)?;
+            let second = binary(B::Multiply, b, c, note)?;
+            binary(B::Add, &first, &second, note)
+        }
+        M::Tan if N::AS_STATED => {
+            let sine = math(M::Sin, core::slice::from_ref(a), note)?;
+            let cosine = math(M::Cos, core::slice::from_ref(a), note)?;
+            binary(B::Divide, &sine, &cosine, note)
+        }
+        M::Pow if N::AS_STATED => {
+            let logarithm = math(M::Log2, core::slice::from_ref(a), note)?;
+            let exponent = binary(B::Multiply, b, &logarithm, note)?;
+            math(M::Exp2, &[exponent], note)
         }
         M::Mix => {
             let difference = binary(B::Subtract, b, a, note)?;
@@ -437,7 +258,7 @@ pub(super) fn math(function: MathFunction, arguments: &[Value], note: &mut impl 
             let [zero, one] = [0.0_f32, 1.0].map(|value| Value::Scalar(constant_float(value)));
             each(&[&above, &one, &zero], |n| {
                 let chosen = if n[0].truth() { n[1] } else { n[2] };
-                Ok(note(Operation::Select, n, (chosen.bits, chosen.kind)))
+                Ok(note.note(Operation::Select, n, (chosen.bits, chosen.kind)))
             })
         }
         M::SmoothStep => {
@@ -473,11 +294,11 @@ pub(super) fn math(function: MathFunction, arguments: &[Value], note: &mut impl 
                 let numbers = columns.iter().map(|column| column.component(at));
                 Ok(Value::vector(&numbers.collect::<Result<Vec<_>, ExecuteError>>()?))
             };
-            Ok(Value::Composite((0..columns[0].size()?).map(row).collect::<Result<_, ExecuteError>>()?))
+            Ok(composite((0..columns[0].size()?).map(row).collect::<Result<_, ExecuteError>>()?))
         }
         _ => {
             let operands: Vec<&Value> = arguments.iter().collect();
-            each(&operands, |n| Ok(note(Operation::Math(function), n, scalar_math(function, n)?)))
+            each(&operands, |n| Ok(note.note(Operation::Math(function), n, scalar_math(function, n)?)))
         }
     }
 }
