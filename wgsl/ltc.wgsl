@@ -457,7 +457,8 @@ fn ltc_schlick(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> f32 {
         along *= ltc_inverse_length(turned);
     }
     let half_cosine = clamp(0.5 + 0.5 * along, 0.0, 1.0);
-    let f = 1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20));
+    // The root may round up, and a fused product and difference sees by how much.
+    let f = max(1.0 - half_cosine * inverseSqrt(max(half_cosine, 1e-20)), 0.0);
     return f * f * f * f * f;
 }
 

@@ -71,28 +71,10 @@ pub struct Device {
     info: wgpu::AdapterInfo,
 }
 
-impl Device {
-    /// Opens the first adapter of the given API, a GPU before a CPU.
-    ///
-    /// # Errors
-    ///
-    /// If there is none or it refuses.
-    pub fn open(backends: wgpu::Backends) -> Result<Self, DeviceError> {
-        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
-        descriptor.backends = backends;
-        let instance = wgpu::Instance::new(descriptor);
-        let mut adapters = pollster::block_on(instance.enumerate_adapters(backends));
-        let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
-            wgpu::DeviceType::DiscreteGpu => 0,
-            wgpu::DeviceType::IntegratedGpu => 1,
-            wgpu::DeviceType::VirtualGpu => 2,
-            wgpu::DeviceType::Other => 3,
-            wgpu::DeviceType::Cpu => 4,
-        };
-        adapters.sort_by_key(rank);
-        let Some(adapter) = adapters.into_iter().next() else {
-            return Err(DeviceError::NoAdapter(format!("{backends:?}")));
-        };
+impl TryFrom<wgpu::Adapter> for Device {
+    type Error = DeviceError;
+
+    fn try_from(adapter: wgpu::Adapter) -> Result<Self, DeviceError> {
         let info = adapter.get_info();
         let features = adapter.features() & wgpu::Features::PASSTHROUGH_SHADERS;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
@@ -107,6 +89,46 @@ impl Device {
         }))
         .map_err(|error| DeviceError::Refused { adapter: info.name.clone(), reason: error.to_string() })?;
         Ok(Self { device, queue, info })
+    }
+}
+
+impl Device {
+    /// Opens the first adapter of the given API, a GPU before a CPU.
+    ///
+    /// # Errors
+    ///
+    /// If there is none or it refuses.
+    pub fn open(backends: wgpu::Backends) -> Result<Self, DeviceError> {
+        Self::adapters(backends)?.swap_remove(0).try_into()
+    }
+
+    /// Opens every adapter of the given APIs, GPUs before CPUs.
+    ///
+    /// # Errors
+    ///
+    /// If there is none or one refuses.
+    pub fn every(backends: wgpu::Backends) -> Result<Vec<Self>, DeviceError> {
+        Self::adapters(backends)?.into_iter().map(Self::try_from).collect()
+    }
+
+    /// At least one adapter, GPUs before CPUs.
+    fn adapters(backends: wgpu::Backends) -> Result<Vec<wgpu::Adapter>, DeviceError> {
+        let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+        descriptor.backends = backends;
+        let instance = wgpu::Instance::new(descriptor);
+        let mut adapters = pollster::block_on(instance.enumerate_adapters(backends));
+        let rank = |adapter: &wgpu::Adapter| match adapter.get_info().device_type {
+            wgpu::DeviceType::DiscreteGpu => 0,
+            wgpu::DeviceType::IntegratedGpu => 1,
+            wgpu::DeviceType::VirtualGpu => 2,
+            wgpu::DeviceType::Other => 3,
+            wgpu::DeviceType::Cpu => 4,
+        };
+        adapters.sort_by_key(rank);
+        if adapters.is_empty() {
+            return Err(DeviceError::NoAdapter(format!("{backends:?}")));
+        }
+        Ok(adapters)
     }
 
     /// The adapter's name, driver and kind.

@@ -223,7 +223,7 @@ pub fn ltc_schlick<R: Real>(surface: &LtcSurface<R>, lobe: &LtcLobe<R>, toward: 
     );
     let along = surface.sin_view * direction.x() + surface.cos_view * direction.z();
     let half_cosine = (half + half * along).clamp(zero, one);
-    let f = one - half_cosine * half_cosine.max(R::new(1e-20)).inverse_sqrt();
+    let f = (one - half_cosine * half_cosine.max(R::new(1e-20)).inverse_sqrt()).max(zero);
     f * f * f * f * f
 }
 

@@ -6,8 +6,13 @@ mod case;
 mod check;
 mod families;
 mod random;
+mod stacks;
 
 pub use case::{Bound, Case, Shape, batch};
 pub use check::{Outcome, offences, outcomes};
 pub use families::{CATALOGUE, Family, cases, cases_of, perpendicular};
 pub use random::{Random, neighbour};
+pub use stacks::{
+    Differences, Inputs, PARTS, Stack, StackRow, adapter_rows, driver_name, driver_version, effects, program,
+    table,
+};

@@ -3,7 +3,10 @@
 //   evaluate INPUT OUTPUT
 //
 // INPUT: the counts of surfaces, lights, vertices, pairs and the table's size as uint32, then those
-// arrays as the kernel binds them, then the table's texels as floats. OUTPUT: four floats a pair.
+// arrays as the kernel binds them, then the texels of all layers of the table as floats. OUTPUT: four floats a pair.
+//
+// ROUNDING, where defined, is a rounding mode of <cfenv>; FLUSH flushes denormal numbers to zero: what a device may do.
+#include <cfenv>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -29,8 +32,16 @@ int main(int, char **arguments) {
     const auto vertices = read<metal::float4>(input, counts[2]);
     const auto pairs = read<Pair>(input, counts[3]);
     const uint32_t size = counts[4];
-    const auto texels = read<metal::float4>(input, 2 * size * size);
-    const metal::texture2d_array<float, metal::access::sample> table{texels.data(), size, size, 2};
+    std::vector<metal::float4> texels;
+    for (metal::float4 texel; std::fread(&texel, sizeof texel, 1, input) == 1;) texels.push_back(texel);
+    const uint32_t layers = uint32_t(texels.size()) / (size * size);
+    const metal::texture2d_array<float, metal::access::sample> table{texels.data(), size, size, layers};
+#ifdef ROUNDING
+    std::fesetround(ROUNDING);
+#endif
+#ifdef FLUSH
+    __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8040);
+#endif
     FILE *output = std::fopen(arguments[2], "wb");
     for (const Pair pair : pairs) {
         const Surface &at = surfaces[pair.surface];
