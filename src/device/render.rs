@@ -222,6 +222,41 @@ impl Device {
         progress: &dyn Fn(f64),
     ) -> Result<Image, RenderError> {
         scene.check_effects(effects)?;
+        let constants: Vec<(&str, f64)> =
+            effects.switches().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
+        let image = self.draw(
+            &format!("{}{}", crate::WGSL_INCLUDE, crate::WGSL_RENDER),
+            &constants,
+            &needed_layers(table, effects),
+            scene,
+            effects,
+            [width, height],
+            samples,
+            progress,
+        )?;
+        if let Some(index) =
+            image.pixels.iter().position(|pixel| !pixel.iter().all(|value| value.is_finite()))
+        {
+            let (column, row) = (index as u32 % width, index as u32 / width);
+            return Err(RenderError::NotFinite { column, row, adapter: self.info().name.clone() });
+        }
+        Ok(image)
+    }
+
+    /// Draws a scene by the text of a module with the kernel of `wgsl/render.wgsl`, its overrides, and the table that it
+    /// reads, whatever the pixels are.
+    #[allow(clippy::too_many_arguments, reason = "each is a part of what the kernel reads")]
+    pub(crate) fn draw(
+        &self,
+        text: &str,
+        constants: &[(&str, f64)],
+        table: &Table,
+        scene: &Scene,
+        effects: Effects,
+        [width, height]: [u32; 2],
+        samples: u32,
+        progress: &dyn Fn(f64),
+    ) -> Result<Image, RenderError> {
         let sides = 1..=16384;
         if !(sides.contains(&width) && sides.contains(&height) && (1..=4096).contains(&samples)) {
             return Err(RenderError::Size { width, height, samples });
@@ -230,7 +265,6 @@ impl Device {
         let lights: Vec<RenderLight> =
             scene.lights.iter().map(|light| RenderLight::new(light, &mut vertices, &mut pictures)).collect();
         assert!(pictures.len() <= Scene::MOST_PICTURES, "{} lights have pictures", pictures.len());
-        let table = needed_layers(table, effects);
         let layer = |layer: Layer| table.index(layer).map_or(0, |index| index as i32);
         let objects: Vec<RenderObject> = scene.objects.iter().map(RenderObject::new).collect();
         let half = (0.5 * scene.camera.field_of_view).tan();
@@ -267,7 +301,7 @@ impl Device {
             bytemuck::cast_slice(&vertices),
             bytemuck::cast_slice(&positions),
         ];
-        let kernel = self.render_kernel(effects, &table, &pictures, inputs, width * band)?;
+        let kernel = self.render_kernel((text, constants), table, &pictures, inputs, width * band)?;
         for row in (0..height).step_by(band as usize) {
             settings.row = row;
             settings.rows = band.min(height - row);
@@ -277,18 +311,12 @@ impl Device {
             );
             progress(f64::from(row + settings.rows) / f64::from(height));
         }
-        if let Some(index) =
-            pixels.iter().position(|pixel: &[f32; 3]| !pixel.iter().all(|value| value.is_finite()))
-        {
-            let (column, row) = (index as u32 % width, index as u32 / width);
-            return Err(RenderError::NotFinite { column, row, adapter: self.info().name.clone() });
-        }
         Ok(Image { width, height, pixels })
     }
 
     fn render_kernel(
         &self,
-        effects: Effects,
+        (text, constants): (&str, &[(&str, f64)]),
         table: &Table,
         pictures: &[&Prefiltered],
         inputs: [&[u8]; 4],
@@ -298,10 +326,9 @@ impl Device {
         let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
         let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
             label: None,
-            source: wgpu::ShaderSource::Wgsl(format!("{}{}", crate::WGSL_INCLUDE, crate::WGSL_RENDER).into()),
+            source: wgpu::ShaderSource::Wgsl(text.into()),
         });
-        let mut constants: Vec<(&str, f64)> =
-            effects.switches().map(|(name, on)| (name, f64::from(u8::from(on)))).collect();
+        let mut constants = constants.to_vec();
         constants.push(("render_pictures", pictures.len() as f64));
         let pipeline = device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: None,

@@ -1,13 +1,17 @@
 //! Hard cases: where lights and surfaces lie so that arithmetic of single precision goes wrong, and what must hold there.
 //!
 //! [`CATALOGUE`] names the families; [`cases`] makes inputs of all of them, the same ones on every run.
+//! [`approach`] leads into them by one number, and shows what becomes of errors on the way.
 
+pub mod approach;
+mod both;
 mod case;
 mod check;
 mod families;
 mod random;
 mod stacks;
 
+pub use both::{BothError, NOT_FINITE, Shaded, Spread, scene_by_both, sheet};
 pub use case::{Bound, Case, Shape, batch};
 pub use check::{Outcome, offences, outcomes};
 pub use families::{CATALOGUE, Family, cases, cases_of, perpendicular};

@@ -24,6 +24,8 @@ mod lobe;
 mod map;
 mod markdown;
 mod measure;
+#[cfg(feature = "stability")]
+mod multiples;
 mod number;
 mod scale;
 mod section;
@@ -37,6 +39,8 @@ pub use chart::chart_svg;
 pub use frontier::frontier;
 pub use label::{Anchor, Bounds, Placed, place};
 pub use lobe::{LOBE_SIGHTS, LobePlot, lobe_plots};
+#[cfg(feature = "stability")]
+pub use multiples::{ERROR_AXIS, ErrorLine, Series, SmallChart, small_charts};
 
 use super::data::Report;
 use crate::folder::{self, Kind, WriteError};
