@@ -253,6 +253,10 @@ struct LtcOutline {
     float3 previous;
     // Twice the signed area so far times the height of the surface point over the light's plane.
     float facing;
+    // Whether the first vertex counts as above the surface.
+    bool first_up;
+    // Whether the last vertex so far does.
+    bool previous_up;
     // First point on the surface's horizon.
     float3 crossing;
     // Form factor so far, times 2 pi and signed.
@@ -700,7 +704,7 @@ float3 ltc_direction(float3 v)
 {
     const float _e1 = ltc_extent(v);
     float3 scaled = (v * (1.0 / clamp(_e1, LTC_TINY, 8e37)));
-    return (scaled * rsqrt(max(dot(scaled, scaled), LTC_TINY)));
+    return (scaled * rsqrt(max(dot(scaled, scaled), 0.001)));
 }
 
 // Frame and roughness of a surface point. `normal` and `view` (towards the eye) need not be unit,
@@ -927,7 +931,7 @@ float ltc_schlick(LtcSurface surface, LtcLobe lobe, float3 toward)
 #endif
     float _e34 = along;
     float half_cosine = clamp((0.5 + (0.5 * _e34)), 0.0, 1.0);
-    float f = (1.0 - (half_cosine * rsqrt(max(half_cosine, 1e-20))));
+    float f = max((1.0 - (half_cosine * rsqrt(max(half_cosine, 1e-20)))), 0.0);
     return ((((f * f) * f) * f) * f);
 }
 #endif
@@ -1368,7 +1372,8 @@ float ltc_above_tolerance(LtcLobe lobe)
 // it passes the surface point closely. `normal` has the direction of above x below.
 float3 ltc_crossing(float3 above, float3 below, float3 normal)
 {
-    float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
+    float high = max(above.z, 0.0);
+    float t = (high / max((high - min(below.z, 0.0)), LTC_TINY));
     float3 between = float3((above.xy + ((below.xy - above.xy) * t)), 0.0);
     float3 turned = float3(normal.y, -(normal.x), 0.0);
     bool cancels = (dot(between, between) < (1e-6 * max(dot(above, above), dot(below, below))));
@@ -2063,7 +2068,7 @@ float ltc_round_above(float3 form_factor, float height)
     float inverse = rsqrt(max(squared, LTC_TINY));
     float whole = (squared * inverse);
     float reach = (whole * sqrt(max(whole, LTC_TINY)));
-    float tilt = (height * inverse);
+    float tilt = min(abs((height * inverse)), 1.0);
     float offset = min(((tilt * tilt) * inverse), 1.0);
     float depth = sqrt(max((1.0 - whole), LTC_TINY));
     float missing = (((1.221 - (0.80223 * depth)) * depth) + (0.0892 * offset));
@@ -2376,13 +2381,16 @@ LtcOutline ltc_outline_begin(LtcSurface surface, float3 corner)
     outline.first = corner;
     const float _e11 = ltc_extent(to_first);
     outline.scale = (1.0 / max(_e11, LTC_TINY));
+    outline.first_up = (dot(surface.normal, to_first) > 0.0);
+    bool _e23 = outline.first_up;
+    outline.previous_up = _e23;
     outline.previous = corner;
     outline.facing = 0.0;
     outline.diffuse = 0.0;
     outline.crossed = false;
     outline.sum = (0.0).xxx;
-    LtcOutline _e26 = outline;
-    const LtcOutline ltcoutline = _e26;
+    LtcOutline _e34 = outline;
+    const LtcOutline ltcoutline = _e34;
     return ltcoutline;
 }
 #endif
@@ -2432,7 +2440,7 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
     const float _e19 = ltc_extent((b_far - origin));
     float extent = max(_e17, _e19);
     float _e22 = outline.scale;
-    float scale_3 = min(_e22, (1000000000000.0 / max(extent, 1e-25)));
+    float scale_3 = min(_e22, (100000000.0 / max(extent, 1e-29)));
     float3 reference_7 = ((first_far - origin) * scale_3);
     float3 a = ((a_far - origin) * scale_3);
     float3 b = ((b_far - origin) * scale_3);
@@ -2482,8 +2490,11 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
     bool near = (!(ltc_use_cheap_distance) & (max(dot(a_offset, a_offset), dot(b_offset, b_offset)) < (0.0625 * dot(reference_7, reference_7))));
     float a_height = (near ? (height + dot(surface.normal, a_offset)) : dot(surface.normal, a));
     float b_height = (near ? (height + dot(surface.normal, b_offset)) : dot(surface.normal, b));
-    bool a_up = (a_height > 0.0);
-    bool b_up = (b_height > 0.0);
+    bool a_up = outline.previous_up;
+    bool _e108 = outline.first_up;
+    float3 _e110 = outline.first;
+    bool b_up = (all((corner == _e110)) ? _e108 : (b_height > 0.0));
+    outline.previous_up = b_up;
     outline.above = (a_up | b_up);
     outline.closes = false;
     if (!((a_up | b_up))) {
@@ -2498,29 +2509,30 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
         float3 below = (a_up ? b : a);
         float3 above_offset = (a_up ? a_offset : b_offset);
         float3 below_offset = (a_up ? b_offset : a_offset);
-        float high = max(a_height, b_height);
-        float t = (high / max((high - min(a_height, b_height)), LTC_TINY));
+        float high = max((a_up ? a_height : b_height), 0.0);
+        float low = min((a_up ? b_height : a_height), 0.0);
+        float t = (high / max((high - low), LTC_TINY));
         float3 crossing = (above_2 + ((below - above_2) * t));
         float3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-        bool _e136 = outline.crossed;
-        if (_e136) {
+        bool _e148 = outline.crossed;
+        if (_e148) {
             float3 base = outline.crossing;
             float3 base_offset = outline.crossing_offset;
             float3 horizon_start = (a_up ? crossing : base);
             float3 horizon_end = (a_up ? base : crossing);
             float3 horizon_start_offset = (a_up ? crossing_offset : base_offset);
             float3 horizon_end_offset = (a_up ? base_offset : crossing_offset);
-            const float3 _e146 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
-            float3 normal_13 = (surface.normal * dot(surface.normal, _e146));
+            const float3 _e158 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
+            float3 normal_13 = (surface.normal * dot(surface.normal, _e158));
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
             outline.horizon_normal = normal_13;
-            float _e159 = outline.diffuse;
-            const float3 _e161 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
-            outline.diffuse = (_e159 - dot(surface.normal, _e161));
+            float _e171 = outline.diffuse;
+            const float3 _e173 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
+            outline.diffuse = (_e171 - dot(surface.normal, _e173));
         } else {
             outline.crossed = true;
             outline.crossing = crossing;
@@ -2531,27 +2543,27 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
         end_1 = (a_up ? crossing : b);
         end_offset = (a_up ? crossing_offset : b_offset);
     }
-    float3 _e172 = start_1;
-    float3 _e173 = end_1;
-    float3 _e174 = end_offset;
-    float3 _e175 = start_offset;
-    const float3 _e177 = ltc_edge_normal(_e172, _e173, (_e174 - _e175));
-    float3 _e179 = start_1;
-    outline.start = _e179;
-    float3 _e181 = end_1;
-    outline.end = _e181;
-    float3 _e183 = start_offset;
-    outline.start_offset = _e183;
-    float3 _e185 = end_offset;
-    outline.end_offset = _e185;
-    outline.normal = _e177;
-    float _e188 = outline.diffuse;
-    float3 _e190 = start_1;
-    float3 _e191 = start_offset;
-    float3 _e192 = end_1;
-    float3 _e193 = end_offset;
-    const float3 _e194 = ltc_edge_from(reference_7, _e190, _e191, _e192, _e193, _e177);
-    outline.diffuse = (_e188 - dot(surface.normal, _e194));
+    float3 _e184 = start_1;
+    float3 _e185 = end_1;
+    float3 _e186 = end_offset;
+    float3 _e187 = start_offset;
+    const float3 _e189 = ltc_edge_normal(_e184, _e185, (_e186 - _e187));
+    float3 _e191 = start_1;
+    outline.start = _e191;
+    float3 _e193 = end_1;
+    outline.end = _e193;
+    float3 _e195 = start_offset;
+    outline.start_offset = _e195;
+    float3 _e197 = end_offset;
+    outline.end_offset = _e197;
+    outline.normal = _e189;
+    float _e200 = outline.diffuse;
+    float3 _e202 = start_1;
+    float3 _e203 = start_offset;
+    float3 _e204 = end_1;
+    float3 _e205 = end_offset;
+    const float3 _e206 = ltc_edge_from(reference_7, _e202, _e203, _e204, _e205, _e189);
+    outline.diffuse = (_e200 - dot(surface.normal, _e206));
     return;
 }
 #endif
@@ -2600,36 +2612,37 @@ void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_4, LtcLobe lobe, float3 refe
         float3 below = (_e14 ? _e9 : _e8);
         float3 above_offset = (_e14 ? _e10 : _e11);
         float3 below_offset = (_e14 ? _e11 : _e10);
-        float t = (max(above.z, 0.0) / max((above.z - below.z), LTC_TINY));
-        const float3 _e39 = ltc_crossing(above, below, (_e14 ? _e12 : -(_e12)));
+        float high = max(above.z, 0.0);
+        float t = (high / max((high - min(below.z, 0.0)), LTC_TINY));
+        const float3 _e40 = ltc_crossing(above, below, (_e14 ? _e12 : -(_e12)));
         float3 crossing_offset_1 = (above_offset + ((below_offset - above_offset) * t));
-        bool _e44 = sum_4.crossed;
-        if (_e44) {
+        bool _e45 = sum_4.crossed;
+        if (_e45) {
             float3 base = sum_4.crossing;
             float3 base_offset = sum_4.crossing_offset;
-            float3 horizon_start = (_e14 ? _e39 : base);
-            float3 horizon_end = (_e14 ? base : _e39);
-            float3 _e52 = sum_4.sum;
-            const float3 _e56 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
-            const float3 _e57 = ltc_edge_from(reference, horizon_start, (_e14 ? crossing_offset_1 : base_offset), horizon_end, (_e14 ? base_offset : crossing_offset_1), _e56);
-            sum_4.sum = (_e52 - _e57);
+            float3 horizon_start = (_e14 ? _e40 : base);
+            float3 horizon_end = (_e14 ? base : _e40);
+            float3 _e53 = sum_4.sum;
+            const float3 _e57 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
+            const float3 _e58 = ltc_edge_from(reference, horizon_start, (_e14 ? crossing_offset_1 : base_offset), horizon_end, (_e14 ? base_offset : crossing_offset_1), _e57);
+            sum_4.sum = (_e53 - _e58);
         } else {
             sum_4.crossed = true;
-            sum_4.crossing = _e39;
+            sum_4.crossing = _e40;
             sum_4.crossing_offset = crossing_offset_1;
         }
-        start = (_e14 ? _e8 : _e39);
+        start = (_e14 ? _e8 : _e40);
         start_offset = (_e14 ? _e10 : crossing_offset_1);
-        end = (_e14 ? _e39 : _e9);
+        end = (_e14 ? _e40 : _e9);
         end_offset = (_e14 ? crossing_offset_1 : _e11);
     }
-    float3 _e68 = sum_4.sum;
-    float3 _e69 = start;
-    float3 _e70 = start_offset;
-    float3 _e71 = end;
-    float3 _e72 = end_offset;
-    const float3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
-    sum_4.sum = (_e68 - _e73);
+    float3 _e69 = sum_4.sum;
+    float3 _e70 = start;
+    float3 _e71 = start_offset;
+    float3 _e72 = end;
+    float3 _e73 = end_offset;
+    const float3 _e74 = ltc_edge_from(reference, _e70, _e71, _e72, _e73, _e12);
+    sum_4.sum = (_e69 - _e74);
     return;
 }
 #endif
@@ -3017,11 +3030,11 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_3, float3 end_3, float r
     float3 upright = (surface.normal - (_e34 * dot(surface.normal, _e34)));
     float hidden = (is_inside ? max((1.0 - dot(across_7, across_7)), 0.0) : 0.0);
     float3 slope = ((across_7 * dot(surface.normal, across_7)) + (upright * hidden));
-    const float _e85 = ltc_root(max(dot(surface.normal, slope), 0.0));
+    const float _e85 = ltc_root(max(dot(surface.normal, slope), dot(slope, slope)));
     float rise = (r * _e85);
     float highest = max(dot(surface.normal, (p_a - moved)), dot(surface.normal, (p_b - moved)));
     const float _e94 = ltc_tube_share(highest, rise);
-    float3 lift = (slope * ((((1.0 - _e94) * r) * r) / max(rise, LTC_TINY)));
+    float3 lift = (slope * (((1.0 - _e94) * r) / max(_e85, 1e-15)));
     float3 q_a = ((p_a - moved) + lift);
     float3 q_b = ((p_b - moved) + lift);
     float a_height = dot(surface.normal, q_a);
@@ -3048,18 +3061,18 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_3, float3 end_3, float r
         float farther = ((max(b_squared, (r * r)) * b_inverse) - (max(a_squared, (r * r)) * a_inverse));
         float turned = (sine_5 * clamp((farther / max(full_length, LTC_TINY)), -1.0, 1.0));
         float reach = min(r, full_length);
-        const float4 _e190 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
-        const float4 _e192 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
-        tube.start_cap = _e190.xyz;
-        tube.start_weight = _e190.w;
-        tube.end_cap = _e192.xyz;
-        tube.end_weight = _e192.w;
-        float _e202 = tube.share;
-        tube.share = (_e202 * max((1.0 - (turned * turned)), 0.0));
+        const float4 _e189 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
+        const float4 _e191 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
+        tube.start_cap = _e189.xyz;
+        tube.start_weight = _e189.w;
+        tube.end_cap = _e191.xyz;
+        tube.end_weight = _e191.w;
+        float _e201 = tube.share;
+        tube.share = (_e201 * max((1.0 - (turned * turned)), 0.0));
     }
 #endif
-    LtcTube _e209 = tube;
-    const LtcTube ltctube = _e209;
+    LtcTube _e208 = tube;
+    const LtcTube ltctube = _e208;
     return ltctube;
 }
 #endif
@@ -3679,20 +3692,20 @@ LtcCut ltc_cut(float3 normal_9, float3 half_x, float3 half_y, float size, float3
     cut.steepness = ((size * square) * inverse_slope);
     float _e23 = cut.height;
     float _e26 = cut.steepness;
-    cut.offset = (-(_e23) / max(_e26, LTC_TINY));
-    float _e31 = cut.offset;
-    float bounded = clamp(_e31, -1.0, 1.0);
+    cut.offset = clamp((-(_e23) / max(_e26, LTC_TINY)), -1000000000.0, 1000000000.0);
+    float _e34 = cut.offset;
+    float bounded = clamp(_e34, -1.0, 1.0);
     float reach_square = ((1.0 - bounded) * (1.0 + bounded));
     cut.reach = (reach_square * rsqrt(max(reach_square, LTC_TINY)));
-    float _e47 = cut.toward.x;
-    float _e51 = cut.toward.y;
-    float3 middle = (centre + (((half_x * _e47) + (half_y * _e51)) * (size * bounded)));
-    float _e59 = cut.toward.y;
-    float _e63 = cut.toward.x;
-    float3 along = (((half_x * _e59) - (half_y * _e63)) * size);
+    float _e50 = cut.toward.x;
+    float _e54 = cut.toward.y;
+    float3 middle = (centre + (((half_x * _e50) + (half_y * _e54)) * (size * bounded)));
+    float _e62 = cut.toward.y;
+    float _e66 = cut.toward.x;
+    float3 along = (((half_x * _e62) - (half_y * _e66)) * size);
     cut.moment = max(dot(normal_9, cross(middle, along)), 0.0);
-    LtcCut _e72 = cut;
-    const LtcCut ltccut = _e72;
+    LtcCut _e75 = cut;
+    const LtcCut ltccut = _e75;
     return ltccut;
 }
 #endif

@@ -257,6 +257,10 @@ struct LtcOutline {
     metal::packed_float3 previous;
     // Twice the signed area so far times the height of the surface point over the light's plane.
     float facing;
+    // Whether the first vertex counts as above the surface.
+    bool first_up;
+    // Whether the last vertex so far does.
+    bool previous_up;
     // First point on the surface's horizon.
     metal::packed_float3 crossing;
     // Form factor so far, times 2 pi and signed.
@@ -706,7 +710,7 @@ metal::float3 ltc_direction(
 ) {
     float _e1 = ltc_extent(v);
     metal::float3 scaled = v * (1.0 / metal::clamp(_e1, LTC_TINY, 80000000000000000000000000000000000000.0));
-    return scaled * metal::rsqrt(metal::max(metal::dot(scaled, scaled), LTC_TINY));
+    return scaled * metal::rsqrt(metal::max(metal::dot(scaled, scaled), 0.001));
 }
 
 // Frame and roughness of a surface point. `normal` and `view` (towards the eye) need not be unit,
@@ -949,7 +953,7 @@ float ltc_schlick(
 #endif
     float _e34 = along;
     float half_cosine = metal::clamp(0.5 + (0.5 * _e34), 0.0, 1.0);
-    float f = 1.0 - (half_cosine * metal::rsqrt(metal::max(half_cosine, 0.00000000000000000001)));
+    float f = metal::max(1.0 - (half_cosine * metal::rsqrt(metal::max(half_cosine, 0.00000000000000000001))), 0.0);
     return (((f * f) * f) * f) * f;
 }
 #endif
@@ -1462,7 +1466,8 @@ metal::float3 ltc_crossing(
     metal::float3 below,
     metal::float3 normal
 ) {
-    float t = metal::max(above.z, 0.0) / metal::max(above.z - below.z, LTC_TINY);
+    float high = metal::max(above.z, 0.0);
+    float t = high / metal::max(high - metal::min(below.z, 0.0), LTC_TINY);
     metal::float3 between = metal::float3(above.xy + ((below.xy - above.xy) * t), 0.0);
     metal::float3 turned = metal::float3(normal.y, -(normal.x), 0.0);
     bool cancels = metal::dot(between, between) < (0.000001 * metal::max(metal::dot(above, above), metal::dot(below, below)));
@@ -2226,7 +2231,7 @@ float ltc_round_above(
     float inverse = metal::rsqrt(metal::max(squared, LTC_TINY));
     float whole = squared * inverse;
     float reach = whole * metal::sqrt(metal::max(whole, LTC_TINY));
-    float tilt = height * inverse;
+    float tilt = metal::min(metal::abs(height * inverse), 1.0);
     float offset = metal::min((tilt * tilt) * inverse, 1.0);
     float depth = metal::sqrt(metal::max(1.0 - whole, LTC_TINY));
     float missing = ((1.221 - (0.80223 * depth)) * depth) + (0.0892 * offset);
@@ -2555,13 +2560,16 @@ LtcOutline ltc_outline_begin(
     outline.first = corner;
     float _e11 = ltc_extent(to_first);
     outline.scale = 1.0 / metal::max(_e11, LTC_TINY);
+    outline.first_up = metal::dot(surface.normal, to_first) > 0.0;
+    bool _e23 = outline.first_up;
+    outline.previous_up = _e23;
     outline.previous = corner;
     outline.facing = 0.0;
     outline.diffuse = 0.0;
     outline.crossed = false;
     outline.sum = metal::float3(0.0);
-    LtcOutline _e26 = outline;
-    return _e26;
+    LtcOutline _e34 = outline;
+    return _e34;
 }
 #endif
 
@@ -2620,7 +2628,7 @@ void ltc_outline_add(
     float _e19 = ltc_extent(b_far - origin);
     float extent = metal::max(_e17, _e19);
     float _e22 = outline.scale;
-    float scale_3 = metal::min(_e22, 1000000000000.0 / metal::max(extent, 0.0000000000000000000000001));
+    float scale_3 = metal::min(_e22, 100000000.0 / metal::max(extent, 0.00000000000000000000000000001));
     metal::float3 reference_7 = (first_far - origin) * scale_3;
     metal::float3 a = (a_far - origin) * scale_3;
     metal::float3 b = (b_far - origin) * scale_3;
@@ -2670,8 +2678,11 @@ void ltc_outline_add(
     bool near = !(ltc_use_cheap_distance) & (metal::max(metal::dot(a_offset, a_offset), metal::dot(b_offset, b_offset)) < (0.0625 * metal::dot(reference_7, reference_7)));
     float a_height = near ? (height + metal::dot(surface.normal, a_offset)) : metal::dot(surface.normal, a);
     float b_height = near ? (height + metal::dot(surface.normal, b_offset)) : metal::dot(surface.normal, b);
-    bool a_up = a_height > 0.0;
-    bool b_up = b_height > 0.0;
+    bool a_up = outline.previous_up;
+    bool _e108 = outline.first_up;
+    metal::float3 _e110 = outline.first;
+    bool b_up = metal::all(corner == _e110) ? _e108 : (b_height > 0.0);
+    outline.previous_up = b_up;
     outline.above = a_up | b_up;
     outline.closes = false;
     if (!((a_up | b_up))) {
@@ -2686,29 +2697,30 @@ void ltc_outline_add(
         metal::float3 below = a_up ? b : a;
         metal::float3 above_offset = a_up ? a_offset : b_offset;
         metal::float3 below_offset = a_up ? b_offset : a_offset;
-        float high = metal::max(a_height, b_height);
-        float t = high / metal::max(high - metal::min(a_height, b_height), LTC_TINY);
+        float high = metal::max(a_up ? a_height : b_height, 0.0);
+        float low = metal::min(a_up ? b_height : a_height, 0.0);
+        float t = high / metal::max(high - low, LTC_TINY);
         metal::float3 crossing = above_2 + ((below - above_2) * t);
         metal::float3 crossing_offset = above_offset + ((below_offset - above_offset) * t);
-        bool _e136 = outline.crossed;
-        if (_e136) {
+        bool _e148 = outline.crossed;
+        if (_e148) {
             metal::float3 base = outline.crossing;
             metal::float3 base_offset = outline.crossing_offset;
             metal::float3 horizon_start = a_up ? crossing : base;
             metal::float3 horizon_end = a_up ? base : crossing;
             metal::float3 horizon_start_offset = a_up ? crossing_offset : base_offset;
             metal::float3 horizon_end_offset = a_up ? base_offset : crossing_offset;
-            metal::float3 _e146 = ltc_edge_normal(horizon_start, horizon_end, horizon_end_offset - horizon_start_offset);
-            metal::float3 normal_13 = surface.normal * metal::dot(surface.normal, _e146);
+            metal::float3 _e158 = ltc_edge_normal(horizon_start, horizon_end, horizon_end_offset - horizon_start_offset);
+            metal::float3 normal_13 = surface.normal * metal::dot(surface.normal, _e158);
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
             outline.horizon_normal = normal_13;
-            float _e159 = outline.diffuse;
-            metal::float3 _e161 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
-            outline.diffuse = _e159 - metal::dot(surface.normal, _e161);
+            float _e171 = outline.diffuse;
+            metal::float3 _e173 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
+            outline.diffuse = _e171 - metal::dot(surface.normal, _e173);
         } else {
             outline.crossed = true;
             outline.crossing = crossing;
@@ -2719,27 +2731,27 @@ void ltc_outline_add(
         end_1 = a_up ? crossing : b;
         end_offset = a_up ? crossing_offset : b_offset;
     }
-    metal::float3 _e172 = start_1;
-    metal::float3 _e173 = end_1;
-    metal::float3 _e174 = end_offset;
-    metal::float3 _e175 = start_offset;
-    metal::float3 _e177 = ltc_edge_normal(_e172, _e173, _e174 - _e175);
-    metal::float3 _e179 = start_1;
-    outline.start = _e179;
-    metal::float3 _e181 = end_1;
-    outline.end = _e181;
-    metal::float3 _e183 = start_offset;
-    outline.start_offset = _e183;
-    metal::float3 _e185 = end_offset;
-    outline.end_offset = _e185;
-    outline.normal = _e177;
-    float _e188 = outline.diffuse;
-    metal::float3 _e190 = start_1;
-    metal::float3 _e191 = start_offset;
-    metal::float3 _e192 = end_1;
-    metal::float3 _e193 = end_offset;
-    metal::float3 _e194 = ltc_edge_from(reference_7, _e190, _e191, _e192, _e193, _e177);
-    outline.diffuse = _e188 - metal::dot(surface.normal, _e194);
+    metal::float3 _e184 = start_1;
+    metal::float3 _e185 = end_1;
+    metal::float3 _e186 = end_offset;
+    metal::float3 _e187 = start_offset;
+    metal::float3 _e189 = ltc_edge_normal(_e184, _e185, _e186 - _e187);
+    metal::float3 _e191 = start_1;
+    outline.start = _e191;
+    metal::float3 _e193 = end_1;
+    outline.end = _e193;
+    metal::float3 _e195 = start_offset;
+    outline.start_offset = _e195;
+    metal::float3 _e197 = end_offset;
+    outline.end_offset = _e197;
+    outline.normal = _e189;
+    float _e200 = outline.diffuse;
+    metal::float3 _e202 = start_1;
+    metal::float3 _e203 = start_offset;
+    metal::float3 _e204 = end_1;
+    metal::float3 _e205 = end_offset;
+    metal::float3 _e206 = ltc_edge_from(reference_7, _e202, _e203, _e204, _e205, _e189);
+    outline.diffuse = _e200 - metal::dot(surface.normal, _e206);
     return;
 }
 #endif
@@ -2793,36 +2805,37 @@ void ltc_outline_lobe_edge(
         metal::float3 below = _e14 ? _e9 : _e8;
         metal::float3 above_offset = _e14 ? _e10 : _e11;
         metal::float3 below_offset = _e14 ? _e11 : _e10;
-        float t = metal::max(above.z, 0.0) / metal::max(above.z - below.z, LTC_TINY);
-        metal::float3 _e39 = ltc_crossing(above, below, _e14 ? _e12 : -(_e12));
+        float high = metal::max(above.z, 0.0);
+        float t = high / metal::max(high - metal::min(below.z, 0.0), LTC_TINY);
+        metal::float3 _e40 = ltc_crossing(above, below, _e14 ? _e12 : -(_e12));
         metal::float3 crossing_offset_1 = above_offset + ((below_offset - above_offset) * t);
-        bool _e44 = sum_4.crossed;
-        if (_e44) {
+        bool _e45 = sum_4.crossed;
+        if (_e45) {
             metal::float3 base = sum_4.crossing;
             metal::float3 base_offset = sum_4.crossing_offset;
-            metal::float3 horizon_start = _e14 ? _e39 : base;
-            metal::float3 horizon_end = _e14 ? base : _e39;
-            metal::float3 _e52 = sum_4.sum;
-            metal::float3 _e56 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
-            metal::float3 _e57 = ltc_edge_from(reference, horizon_start, _e14 ? crossing_offset_1 : base_offset, horizon_end, _e14 ? base_offset : crossing_offset_1, _e56);
-            sum_4.sum = _e52 - _e57;
+            metal::float3 horizon_start = _e14 ? _e40 : base;
+            metal::float3 horizon_end = _e14 ? base : _e40;
+            metal::float3 _e53 = sum_4.sum;
+            metal::float3 _e57 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
+            metal::float3 _e58 = ltc_edge_from(reference, horizon_start, _e14 ? crossing_offset_1 : base_offset, horizon_end, _e14 ? base_offset : crossing_offset_1, _e57);
+            sum_4.sum = _e53 - _e58;
         } else {
             sum_4.crossed = true;
-            sum_4.crossing = _e39;
+            sum_4.crossing = _e40;
             sum_4.crossing_offset = crossing_offset_1;
         }
-        start = _e14 ? _e8 : _e39;
+        start = _e14 ? _e8 : _e40;
         start_offset = _e14 ? _e10 : crossing_offset_1;
-        end = _e14 ? _e39 : _e9;
+        end = _e14 ? _e40 : _e9;
         end_offset = _e14 ? crossing_offset_1 : _e11;
     }
-    metal::float3 _e68 = sum_4.sum;
-    metal::float3 _e69 = start;
-    metal::float3 _e70 = start_offset;
-    metal::float3 _e71 = end;
-    metal::float3 _e72 = end_offset;
-    metal::float3 _e73 = ltc_edge_from(reference, _e69, _e70, _e71, _e72, _e12);
-    sum_4.sum = _e68 - _e73;
+    metal::float3 _e69 = sum_4.sum;
+    metal::float3 _e70 = start;
+    metal::float3 _e71 = start_offset;
+    metal::float3 _e72 = end;
+    metal::float3 _e73 = end_offset;
+    metal::float3 _e74 = ltc_edge_from(reference, _e70, _e71, _e72, _e73, _e12);
+    sum_4.sum = _e69 - _e74;
     return;
 }
 #endif
@@ -3250,11 +3263,11 @@ LtcTube ltc_tube_begin(
     metal::float3 upright = surface.normal - (_e34 * metal::dot(surface.normal, _e34));
     float hidden = is_inside ? metal::max(1.0 - metal::dot(across_7, across_7), 0.0) : 0.0;
     metal::float3 slope = (across_7 * metal::dot(surface.normal, across_7)) + (upright * hidden);
-    float _e85 = ltc_root(metal::max(metal::dot(surface.normal, slope), 0.0));
+    float _e85 = ltc_root(metal::max(metal::dot(surface.normal, slope), metal::dot(slope, slope)));
     float rise = r * _e85;
     float highest = metal::max(metal::dot(surface.normal, p_a - moved), metal::dot(surface.normal, p_b - moved));
     float _e94 = ltc_tube_share(highest, rise);
-    metal::float3 lift = slope * ((((1.0 - _e94) * r) * r) / metal::max(rise, LTC_TINY));
+    metal::float3 lift = slope * (((1.0 - _e94) * r) / metal::max(_e85, 0.000000000000001));
     metal::float3 q_a = (p_a - moved) + lift;
     metal::float3 q_b = (p_b - moved) + lift;
     float a_height = metal::dot(surface.normal, q_a);
@@ -3281,18 +3294,18 @@ LtcTube ltc_tube_begin(
         float farther = (metal::max(b_squared, r * r) * b_inverse) - (metal::max(a_squared, r * r) * a_inverse);
         float turned = sine_5 * metal::clamp(farther / metal::max(full_length, LTC_TINY), -1.0, 1.0);
         float reach = metal::min(r, full_length);
-        metal::float4 _e190 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
-        metal::float4 _e192 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
-        tube.start_cap = _e190.xyz;
-        tube.start_weight = _e190.w;
-        tube.end_cap = _e192.xyz;
-        tube.end_weight = _e192.w;
-        float _e202 = tube.share;
-        tube.share = _e202 * metal::max(1.0 - (turned * turned), 0.0);
+        metal::float4 _e189 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
+        metal::float4 _e191 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
+        tube.start_cap = _e189.xyz;
+        tube.start_weight = _e189.w;
+        tube.end_cap = _e191.xyz;
+        tube.end_weight = _e191.w;
+        float _e201 = tube.share;
+        tube.share = _e201 * metal::max(1.0 - (turned * turned), 0.0);
     }
 #endif
-    LtcTube _e209 = tube;
-    return _e209;
+    LtcTube _e208 = tube;
+    return _e208;
 }
 #endif
 
@@ -4002,20 +4015,20 @@ LtcCut ltc_cut(
     cut.steepness = (size * square) * inverse_slope;
     float _e23 = cut.height;
     float _e26 = cut.steepness;
-    cut.offset = -(_e23) / metal::max(_e26, LTC_TINY);
-    float _e31 = cut.offset;
-    float bounded = metal::clamp(_e31, -1.0, 1.0);
+    cut.offset = metal::clamp(-(_e23) / metal::max(_e26, LTC_TINY), -1000000000.0, 1000000000.0);
+    float _e34 = cut.offset;
+    float bounded = metal::clamp(_e34, -1.0, 1.0);
     float reach_square = (1.0 - bounded) * (1.0 + bounded);
     cut.reach = reach_square * metal::rsqrt(metal::max(reach_square, LTC_TINY));
-    float _e47 = cut.toward.x;
-    float _e51 = cut.toward.y;
-    metal::float3 middle = centre + (((half_x * _e47) + (half_y * _e51)) * (size * bounded));
-    float _e59 = cut.toward.y;
-    float _e63 = cut.toward.x;
-    metal::float3 along = ((half_x * _e59) - (half_y * _e63)) * size;
+    float _e50 = cut.toward.x;
+    float _e54 = cut.toward.y;
+    metal::float3 middle = centre + (((half_x * _e50) + (half_y * _e54)) * (size * bounded));
+    float _e62 = cut.toward.y;
+    float _e66 = cut.toward.x;
+    metal::float3 along = ((half_x * _e62) - (half_y * _e66)) * size;
     cut.moment = metal::max(metal::dot(normal_9, metal::cross(middle, along)), 0.0);
-    LtcCut _e72 = cut;
-    return _e72;
+    LtcCut _e75 = cut;
+    return _e75;
 }
 #endif
 

@@ -1,8 +1,10 @@
 //! Folders whose files appear whole or not at all.
 
-use std::fs;
-use std::io;
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
+
+use crate::output;
 
 /// The file of a written folder that names all its files, itself included, a line each.
 pub const MANIFEST: &str = "MANIFEST";
@@ -54,38 +56,71 @@ fn refused(path: &Path) -> impl FnOnce(io::Error) -> WriteError + use<> {
 ///
 /// If the folder holds anything but what is of that kind, or the operating system refuses.
 pub fn write(files: &[(String, Vec<u8>)], folder: &Path, kind: Kind) -> Result<(), WriteError> {
-    let replaces = folder.exists();
     check_replaceable(folder, kind)?;
+    // The folder itself and not a link to it takes part in the exchange. A name like `.` has no place beside it.
+    let folder = &match folder.file_name() {
+        Some(_) if folder.exists() => fs::canonicalize(folder).map_err(refused(folder))?,
+        Some(_) => folder.to_owned(),
+        None => {
+            let reason = io::Error::new(
+                io::ErrorKind::InvalidInput,
+                "it has no name of its own; name the folder itself",
+            );
+            return Err(refused(folder)(reason));
+        }
+    };
     let parent = match folder.parent() {
         Some(parent) if parent != Path::new("") => parent,
         _ => Path::new("."),
     };
     fs::create_dir_all(parent).map_err(refused(parent))?;
-    let name =
-        folder.file_name().map_or_else(|| kind.name.into(), |name| name.to_string_lossy().into_owned());
-    let beside = |what: &str| parent.join(format!(".{name}.{what}-{}", std::process::id()));
-    let (fresh, old) = (beside("new"), beside("old"));
-    let written = write_files(files, &fresh).and_then(|()| {
-        if replaces {
-            fs::rename(folder, &old).map_err(refused(folder))?;
-        }
-        fs::rename(&fresh, folder).map_err(|error| {
-            // Best effort: the older folder back to its place; if that fails it stays beside it.
-            let _ = fs::rename(&old, folder);
-            refused(folder)(error)
-        })
-    });
-    if written.is_ok() {
-        // The new folder is there; what is left of the old one does no harm.
-        let _ = fs::remove_dir_all(&old);
-    } else {
-        let _ = fs::remove_dir_all(&fresh);
-    }
+    output::remove_stale(folder);
+    let fresh = output::beside(folder, "new");
+    // Left by another process of that number.
+    let _ = fs::remove_dir_all(&fresh);
+    let written = write_files(files, &fresh).and_then(|()| replace(&fresh, folder).map_err(refused(folder)));
+    // The new folder that was not to be, or the old one that no longer is; what is left of it does no harm.
+    let _ = fs::remove_dir_all(&fresh);
     written
+}
+
+/// Gives `folder` what is in `fresh`, which gets what was in `folder`: at every moment there is one of the two.
+#[cfg(any(target_os = "linux", target_os = "android", target_vendor = "apple"))]
+fn replace(fresh: &Path, folder: &Path) -> io::Result<()> {
+    use rustix::fs::{CWD, RenameFlags, renameat_with};
+    if !folder.exists() {
+        return fs::rename(fresh, folder);
+    }
+    match renameat_with(CWD, fresh, CWD, folder, RenameFlags::EXCHANGE) {
+        // A file system that cannot.
+        Err(rustix::io::Errno::INVAL | rustix::io::Errno::NOSYS | rustix::io::Errno::NOTSUP) => {
+            replace_in_steps(fresh, folder)
+        }
+        exchanged => Ok(exchanged?),
+    }
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "android", target_vendor = "apple")))]
+use replace_in_steps as replace;
+
+/// The same where two names cannot be exchanged at once: for a moment the old folder lies beside.
+fn replace_in_steps(fresh: &Path, folder: &Path) -> io::Result<()> {
+    let old = output::beside(folder, "old");
+    if !folder.exists() {
+        return fs::rename(fresh, folder);
+    }
+    fs::rename(folder, &old)?;
+    if let Err(error) = fs::rename(fresh, folder) {
+        // Best effort: the older folder back to its place; if that fails it stays beside it.
+        let _ = fs::rename(&old, folder);
+        return Err(error);
+    }
+    fs::rename(&old, fresh)
 }
 
 /// Asserts that every file in `folder` is one that a folder of that kind has.
 pub fn check_replaceable(folder: &Path, kind: Kind) -> Result<(), WriteError> {
+    restore(folder);
     if !folder.exists() {
         return Ok(());
     }
@@ -116,6 +151,16 @@ pub fn check_replaceable(folder: &Path, kind: Kind) -> Result<(), WriteError> {
     Ok(())
 }
 
+/// Gives an older folder its name back, if a process was killed in the middle of [`replace_in_steps`].
+fn restore(folder: &Path) {
+    if let [old] = &output::all_beside(folder, "old")[..]
+        && folder.symlink_metadata().is_err()
+    {
+        // Best effort: if it stays beside, there is none to replace.
+        let _ = fs::rename(old, folder);
+    }
+}
+
 fn write_files(files: &[(String, Vec<u8>)], folder: &Path) -> Result<(), WriteError> {
     let mut names: Vec<&str> = files.iter().map(|(path, _)| path.as_str()).chain([MANIFEST]).collect();
     names.sort_unstable();
@@ -123,12 +168,16 @@ fn write_files(files: &[(String, Vec<u8>)], folder: &Path) -> Result<(), WriteEr
     let manifest: String = names.iter().map(|name| format!("{name}\n")).collect();
     let files = files.iter().map(|(path, bytes)| (path.as_str(), bytes.as_slice()));
     let files = files.filter(|(path, _)| *path != MANIFEST).chain([(MANIFEST, manifest.as_bytes())]);
+    let mut written = Vec::new();
     for (path, bytes) in files {
         let path = folder.join(path);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(refused(parent))?;
         }
-        fs::write(&path, bytes).map_err(refused(&path))?;
+        let mut file = File::create(&path).map_err(refused(&path))?;
+        file.write_all(bytes).map_err(refused(&path))?;
+        written.push((path, file));
     }
-    Ok(())
+    // All after all are written, which takes a fraction of the time of one by one.
+    written.iter().try_for_each(|(path, file)| output::sync(file).map_err(refused(path)))
 }

@@ -91,6 +91,8 @@ pub mod effects;
 pub mod fit;
 #[cfg(any(feature = "package", feature = "report"))]
 mod folder;
+#[cfg(any(feature = "scene", feature = "report"))]
+pub mod input;
 #[cfg(feature = "interpret")]
 pub mod interpret;
 #[cfg(feature = "shade")]
@@ -99,6 +101,8 @@ mod ktx;
 pub mod light;
 #[cfg(feature = "shade")]
 pub mod lobe;
+#[cfg(any(feature = "package", feature = "scene", feature = "report"))]
+pub mod output;
 #[cfg(feature = "package")]
 pub mod package;
 #[cfg(any(feature = "bake", feature = "cost"))]

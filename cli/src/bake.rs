@@ -6,12 +6,14 @@ use std::time::Instant;
 use anyhow::Context;
 use clap::{Args, ValueEnum};
 use softbox::fit::{self, Settings};
+use softbox::output;
 use softbox::package::measure;
 use softbox::report::{Accuracy, REGIONS, Technique};
 use softbox::table::{Container, Table};
 
 use crate::model::ModelArguments;
 use crate::progress;
+use crate::say::say;
 
 #[derive(Args)]
 pub struct BakeArguments {
@@ -81,7 +83,7 @@ pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
     let table = Table::pack(&fitted);
     let bytes = container.write(&table)?;
     write_file(&arguments.out, &bytes)?;
-    println!(
+    say!(
         "Wrote {} ({} bytes) in {:.1} s.",
         arguments.out.display(),
         bytes.len(),
@@ -91,35 +93,28 @@ pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
         let bar = progress::bar("Measuring");
         let measured = measure(&table, technique, &family, 200, &|share| progress::advance(&bar, share));
         bar.finish_and_clear();
-        println!("\nMean |error| over mean value, per cent, on random quads:");
-        println!("{:34} {:>9} {:>9} {:>11}", "", "specular", "Schlick", "dielectric");
-        print_row("all", &measured.all);
+        say!("\nMean |error| over mean value, per cent, on random quads:");
+        say!("{:34} {:>9} {:>9} {:>11}", "", "specular", "Schlick", "dielectric");
+        print_row("all", &measured.all)?;
         for (region, accuracy) in REGIONS.iter().zip(&measured.regions) {
             let ((low, high), (grazing, steep)) = (region.roughness, region.cosine);
-            print_row(&format!("roughness {low}-{high}, cosine {grazing}-{steep}"), accuracy);
+            print_row(&format!("roughness {low}-{high}, cosine {grazing}-{steep}"), accuracy)?;
         }
     }
     Ok(())
 }
 
-pub fn print_row(name: &str, accuracy: &Accuracy) {
-    println!(
+pub fn print_row(name: &str, accuracy: &Accuracy) -> anyhow::Result<()> {
+    say!(
         "{name:34} {:9.2} {:9.2} {:11.2}",
         100.0 * accuracy.specular,
         100.0 * accuracy.fresnel,
         100.0 * accuracy.dielectric
     );
+    Ok(())
 }
 
 /// Writes a file whole or not at all.
 pub fn write_file(path: &Path, bytes: &[u8]) -> anyhow::Result<()> {
-    let mut name = path.file_name().unwrap_or_default().to_owned();
-    name.push(format!(".{}.tmp", std::process::id()));
-    let temporary = path.with_file_name(name);
-    let written = std::fs::write(&temporary, bytes).and_then(|()| std::fs::rename(&temporary, path));
-    if written.is_err() {
-        // What there is of it; the error that counts is the one above.
-        let _ = std::fs::remove_file(&temporary);
-    }
-    written.with_context(|| format!("cannot write {}", path.display()))
+    output::write_file(path, bytes).with_context(|| format!("cannot write {}", path.display()))
 }

@@ -9,6 +9,7 @@ use softbox::effects::Effects;
 use softbox::report::cost::{self, Cost};
 
 use crate::quality::QualityArguments;
+use crate::say::say;
 use crate::select::print_text;
 
 #[derive(Args)]
@@ -69,7 +70,7 @@ pub fn cost(arguments: &CostArguments) -> anyhow::Result<()> {
     let sets: Vec<Effects> = sets.into_iter().map(|set| arguments.quality.of(set)).collect();
     if arguments.here {
         let family = arguments.family.join(",");
-        println!("{}", serde_json::to_string(&report(family, &sets)?)?);
+        say!("{}", serde_json::to_string(&report(family, &sets)?)?);
         return Ok(());
     }
     let reports: Vec<Report> =

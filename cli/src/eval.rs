@@ -8,15 +8,13 @@ use std::sync::Arc;
 
 use anyhow::Context;
 use clap::{Args, ValueEnum};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use rayon::prelude::*;
-use serde::Deserialize;
-use serde_json::Value;
 use softbox::brdf::{Brdf, Ggx};
 use softbox::device::{Batch, Device, EvaluateSurface, Program};
 use softbox::effects::{self, Effects, Quality};
-use softbox::light::{Light, LightError, light_value_with};
-use softbox::scene::load_picture;
+use softbox::light::{Light, light_value_with};
+use softbox::scene::{Case, LONGEST_LINE, Precision, load_picture};
 use softbox::shade::{
     LTC_ROUGHNESS_FLOOR, LobeSum, LtcLookup, Real, Vector, ltc_quad_begin, ltc_quad_lobe, ltc_quad_toward,
     ltc_rectangle_diffuse_lookup, ltc_rectangle_lookup, ltc_surface,
@@ -73,37 +71,11 @@ enum On {
     Truth,
 }
 
-#[derive(Deserialize)]
-struct RawCase {
-    surface: RawSurface,
-    light: Value,
-}
-
-#[derive(Deserialize)]
-struct RawSurface {
-    position: [f64; 3],
-    normal: [f64; 3],
-    view: [f64; 3],
-    roughness: f64,
-}
-
-struct Case {
-    position: DVec3,
-    normal: DVec3,
-    view: DVec3,
-    roughness: f64,
-    light: Light,
-    picture: Option<Arc<Prefiltered>>,
-}
-
 /// Diffuse, specular and fresnel value, each alone or in red, green and blue.
 enum Values {
     White([f64; 3]),
     Colour([DVec3; 3]),
 }
-
-/// The shapes that a case may name.
-const SHAPES: [&str; 4] = ["polygon", "disk", "sphere", "tube"];
 
 /// Lines that are evaluated together: few enough to answer soon, enough to keep all cores busy; on a
 /// device enough to be worth its start.
@@ -159,7 +131,10 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
                 other => other.context("cannot write to standard output")?,
             }
         }
-        output.flush().context("cannot write to standard output")?;
+        match output.flush() {
+            Err(error) if error.kind() == io::ErrorKind::BrokenPipe => std::process::exit(0),
+            other => other.context("cannot write to standard output")?,
+        }
         cases.clear();
         Ok(())
     };
@@ -168,8 +143,13 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
     let mut vertices = 0;
     for number in 1.. {
         line.clear();
-        let parsed = match input.read_until(b'\n', &mut line) {
+        // A line that never ends fills no memory.
+        let parsed = match input.by_ref().take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut line) {
             Ok(0) => break,
+            Ok(_) if line.len() > LONGEST_LINE => Err(anyhow::anyhow!(
+                "line {number} is longer than {} MiB; put each case on a line of its own",
+                LONGEST_LINE >> 20
+            )),
             Ok(_) if line.iter().all(u8::is_ascii_whitespace) => continue,
             Ok(_) => parse(&line, arguments.on, &mut pictures).with_context(|| format!("line {number}")),
             Err(error) => Err(error).with_context(|| format!("cannot read {name} at line {number}")),
@@ -198,94 +178,23 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
 type Pictures = BTreeMap<String, Arc<Prefiltered>>;
 
 fn parse(line: &[u8], on: On, pictures: &mut Pictures) -> anyhow::Result<Case> {
-    let single = matches!(on, On::Cpu | On::Gpu);
-    let text = std::str::from_utf8(line).map_err(|_| anyhow::anyhow!("the line is not UTF-8 text"))?;
-    let text = text.trim_start_matches('\u{feff}').trim_end();
-    let value: Value = serde_json::from_str(text).map_err(|error| {
-        let rest = text.get(error.column().saturating_sub(1)..).unwrap_or_default();
-        let rest = rest.trim_start_matches('-');
-        if error.to_string().contains("out of range") || rest.starts_with("NaN") || rest.starts_with("Inf") {
-            anyhow::anyhow!("a number is not finite")
-        } else {
-            let reason = error.to_string();
-            let reason = reason.split(" at line ").next().unwrap_or_default();
-            anyhow::anyhow!("the line is not JSON: {reason} at column {}", error.column())
+    let precision = match on {
+        On::Cpu | On::Gpu => Precision::Single,
+        On::CpuF64 | On::Truth => Precision::Double,
+    };
+    Ok(Case::parse(line, precision, &mut |name| {
+        if on == On::Gpu {
+            return Err(
+                "the light has a picture, which cpu, cpu-f64 and truth evaluate, but not gpu".to_owned()
+            );
         }
-    })?;
-    for (name, part) in
-        [("a case", Some(&value)), ("surface", value.get("surface")), ("light", value.get("light"))]
-    {
-        anyhow::ensure!(part.is_none_or(Value::is_object), "not a case: {name} must be an object in braces");
-    }
-    let RawCase { surface, light } =
-        RawCase::deserialize(&value).map_err(|error| anyhow::anyhow!("not a case: {error}"))?;
-    let shape = match light.get("shape") {
-        Some(Value::String(shape)) if SHAPES.contains(&shape.as_str()) => shape,
-        Some(shape) => anyhow::bail!("the light's shape is {shape}, but the known shapes are {SHAPES:?}"),
-        None => anyhow::bail!("the light has no field `shape`; the known shapes are {SHAPES:?}"),
-    };
-    let picture = match light.get("picture") {
-        None => None,
-        Some(_) if on == On::Gpu => {
-            anyhow::bail!("the light has a picture, which cpu, cpu-f64 and truth evaluate, but not gpu")
+        if let Some(picture) = pictures.get(name) {
+            return Ok(picture.clone());
         }
-        Some(Value::String(name)) => match pictures.get(name) {
-            Some(picture) => Some(picture.clone()),
-            None => {
-                let picture = Arc::new(load_picture(Path::new(name))?);
-                pictures.insert(name.clone(), picture.clone());
-                Some(picture)
-            }
-        },
-        Some(name) => anyhow::bail!("the light's picture is {name}, but must be the name of a PNG file"),
-    };
-    let light =
-        Light::deserialize(&light).map_err(|error| anyhow::anyhow!("not a {shape} light: {error}"))?;
-    if picture.is_some() {
-        let is_parallelogram = match &light {
-            Light::Polygon { points, .. } if points.len() == 4 => {
-                let [a, b, c, d] = [points[0], points[1], points[2], points[3]];
-                (a + c - b - d).length() <= 1e-4 * (c - a).length().max((d - b).length())
-            }
-            _ => false,
-        };
-        anyhow::ensure!(
-            is_parallelogram,
-            "the light has a picture, but only a polygon that is a parallelogram can show one"
-        );
-    }
-    match light.check() {
-        // It emits nothing, and the include says so.
-        Err(LightError::NoArea) => {}
-        checked => checked.map_err(|error| anyhow::anyhow!("the {shape}'s {error}"))?,
-    }
-    let vector = |name: &str, v: [f64; 3]| -> anyhow::Result<DVec3> {
-        let v = DVec3::from(v);
-        anyhow::ensure!(
-            v.is_finite() && (!single || v.as_vec3().is_finite()),
-            "{name} is not finite in {} precision",
-            if single { "single" } else { "double" }
-        );
-        Ok(v)
-    };
-    let direction = |name: &str, v: [f64; 3]| -> anyhow::Result<DVec3> {
-        let v = vector(name, v)?;
-        anyhow::ensure!(
-            v != DVec3::ZERO && (!single || v.as_vec3() != Vec3::ZERO),
-            "{name} is zero, but a direction needs a length"
-        );
-        Ok(v)
-    };
-    let roughness = surface.roughness;
-    anyhow::ensure!((0.0..=1.0).contains(&roughness), "roughness is {roughness}, but must be from 0 to 1");
-    Ok(Case {
-        position: vector("position", surface.position)?,
-        normal: direction("normal", surface.normal)?,
-        view: direction("view", surface.view)?,
-        roughness,
-        light,
-        picture,
-    })
+        let picture = Arc::new(load_picture(Path::new(name)).map_err(|error| error.to_string())?);
+        pictures.insert(name.to_owned(), picture.clone());
+        Ok(picture)
+    })?)
 }
 
 fn by_twin<R: Real>(table: &Table, effects: Effects, case: &Case) -> Values {

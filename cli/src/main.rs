@@ -11,6 +11,7 @@ mod progress;
 mod quality;
 mod render;
 mod report;
+mod say;
 mod select;
 
 use clap::{Parser, Subcommand};

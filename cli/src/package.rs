@@ -13,6 +13,7 @@ use softbox::scene::Scene;
 use crate::bake::{check_size, print_row, write_file};
 use crate::model::ModelArguments;
 use crate::progress;
+use crate::say::say;
 
 #[derive(Args)]
 pub struct BuildArguments {
@@ -85,27 +86,27 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
                     std::fs::create_dir_all(folder)?;
                 }
                 write_file(&path, bytes)?;
-                println!("{}", path.display());
+                say!("{}", path.display());
             }
         }
         return Ok(());
     }
     package::write_folder(&package, &arguments.out)?;
-    println!("Wrote {}:", arguments.out.display());
+    say!("Wrote {}:", arguments.out.display());
     for (path, bytes) in &package.files {
-        println!("  {path:28} {:>8}", bytes.len());
+        say!("  {path:28} {:>8}", bytes.len());
     }
     let bytes: usize = package.files.iter().map(|(_, bytes)| bytes.len()).sum();
-    println!("{} files, {bytes} bytes.", package.files.len());
-    println!("\nMean |error| over mean value, per cent, against numerical integration on random quads:");
-    println!("{:34} {:>9} {:>9} {:>11}", "", "specular", "Schlick", "dielectric");
+    say!("{} files, {bytes} bytes.", package.files.len());
+    say!("\nMean |error| over mean value, per cent, against numerical integration on random quads:");
+    say!("{:34} {:>9} {:>9} {:>11}", "", "specular", "Schlick", "dielectric");
     for (name, measured) in
         [("the include", &package.native), ("published technique, our table", &package.compatible)]
     {
         if let Some(measured) = measured {
-            print_row(name, &measured.all);
+            print_row(name, &measured.all)?;
         }
     }
-    println!("\nTook {:.1} s.", started.elapsed().as_secs_f64());
+    say!("\nTook {:.1} s.", started.elapsed().as_secs_f64());
     Ok(())
 }

@@ -6,6 +6,7 @@ use clap::Args;
 use softbox::scene::load_picture;
 
 use crate::bake::write_file;
+use crate::say::say;
 
 #[derive(Args)]
 pub struct PrefilterArguments {
@@ -25,13 +26,13 @@ pub fn prefilter(arguments: &PrefilterArguments) -> anyhow::Result<()> {
     let pyramid = load_picture(&arguments.picture)?;
     let bytes = if is_raw { pyramid.bytes() } else { pyramid.ktx2() };
     write_file(&arguments.out, &bytes)?;
-    println!(
+    say!(
         "Wrote {}: RGBA16F, linear, premultiplied, {} levels:",
         arguments.out.display(),
         pyramid.levels().len()
     );
     for (index, level) in pyramid.levels().iter().enumerate() {
-        println!("  level {index:2}  {:4} x {:4}", level.width, level.height);
+        say!("  level {index:2}  {:4} x {:4}", level.width, level.height);
     }
     Ok(())
 }

@@ -11,6 +11,7 @@ use softbox::table::Table;
 
 use crate::progress;
 use crate::quality::QualityArguments;
+use crate::say::say;
 
 /// Difference, over the mean of the truth, that has the full colour.
 const DIFFERENCE_SCALE: f64 = 0.2;
@@ -68,7 +69,7 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
         device.render_with(&table, &scene, effects, [width, height], samples, &|share| progress(share))
     });
     let image = image?;
-    println!(
+    say!(
         "{width} x {height}, {samples} samples, {} lights, {effects}: {:.2} s on {}",
         scene.lights.len(),
         seconds,
@@ -79,8 +80,8 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
         let (truth, seconds) =
             timed("ground truth", |progress| render_truth(&scene, width, height, samples, progress));
         let comparison = Comparison::new(&image, &truth);
-        println!("ground truth: {seconds:.1} s");
-        println!(
+        say!("ground truth: {seconds:.1} s");
+        say!(
             "difference over the mean, {} pixels of surface: mean {:.2} %, 99th percentile {:.1} %, largest {:.1} %",
             comparison.pixels,
             100.0 * comparison.mean_error,
@@ -94,7 +95,7 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
             panels.push(panel);
         }
         if arguments.difference {
-            println!(
+            say!(
                 "difference panel: yellow is too bright, blue too dark, full colour at {} % of the mean, grey where there is no surface",
                 100.0 * DIFFERENCE_SCALE
             );
@@ -105,7 +106,7 @@ pub fn render(arguments: &RenderArguments) -> anyhow::Result<()> {
         }
     }
     write_png(&arguments.out, &Panel::beside(&panels))?;
-    println!("{}", arguments.out.display());
+    say!("{}", arguments.out.display());
     Ok(())
 }
 

@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use anyhow::Context;
 use clap::Args;
+use softbox::input;
 use softbox::report::cost::FAMILIES;
 use softbox::report::costs::{self, Adapter, Effort, Kernel, Measured, Options};
 use softbox::report::page;
@@ -13,6 +14,10 @@ use softbox::report::{Settings, gather};
 
 use crate::bake::write_file;
 use crate::progress;
+use crate::say::say;
+
+/// Bytes of the largest file of times.
+const LARGEST_FILE: usize = 16 << 20;
 
 #[derive(Args)]
 pub struct ReportArguments {
@@ -73,10 +78,9 @@ pub fn report(arguments: &ReportArguments) -> anyhow::Result<()> {
         std::iter::once("softbox".to_owned()).chain(std::env::args().skip(1)).collect::<Vec<_>>().join(" ");
     let scratch = tempfile::tempdir().context("cannot make a folder for temporary files")?;
     let measured = arguments.measured.iter().map(|path| {
-        let text =
-            std::fs::read_to_string(path).with_context(|| format!("cannot read {}", path.display()))?;
-        serde_json::from_str::<Measured>(&text)
-            .with_context(|| format!("{} holds no times that `softbox report --gpu` wrote", path.display()))
+        let text = input::read_text(path, LARGEST_FILE)
+            .with_context(|| format!("cannot read {}", path.display()))?;
+        Measured::read(&text).with_context(|| path.display().to_string())
     });
     let mut options = Options::quick(&command);
     options.compiler = Some(&compiler);
@@ -107,8 +111,8 @@ pub fn report(arguments: &ReportArguments) -> anyhow::Result<()> {
     bar.finish_and_clear();
     let gathered = gathered?;
     page::write(&gathered.report, &gathered.lobes, &gathered.pictures, &arguments.out)?;
-    println!("{}", arguments.out.join("index.html").display());
-    println!("Took {:.0} s.", started.elapsed().as_secs_f64());
+    say!("{}", arguments.out.join("index.html").display());
+    say!("Took {:.0} s.", started.elapsed().as_secs_f64());
     Ok(())
 }
 
@@ -126,8 +130,8 @@ fn gpu(arguments: &ReportArguments) -> anyhow::Result<()> {
     let path = arguments.out.join(format!("{name}.json"));
     write_file(&path, (serde_json::to_string_pretty(&measured)? + "\n").as_bytes())?;
     for time in &measured.times {
-        println!("{:16} {:>10.2} ns {:>8.2}", time.method, time.nanoseconds, time.ratio);
+        say!("{:16} {:>10.2} ns {:>8.2}", time.method, time.nanoseconds, time.ratio);
     }
-    println!("{}", path.display());
+    say!("{}", path.display());
     Ok(())
 }

@@ -5,6 +5,7 @@ use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use anyhow::Context;
 use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use softbox::effects::{self, Effect, Effects};
@@ -67,7 +68,9 @@ pub fn select(arguments: &SelectArguments) -> anyhow::Result<()> {
 /// Prints a whole text; that its reader stops early is no error.
 pub fn print_text(text: &str) -> anyhow::Result<()> {
     match std::io::stdout().write_all(text.as_bytes()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(error.into()),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(error).context("cannot write to standard output")
+        }
         _ => Ok(()),
     }
 }

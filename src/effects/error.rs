@@ -47,6 +47,13 @@ pub enum EffectsError {
         /// The function.
         function: &'static str,
     },
+    /// A text that is no shader.
+    Malformed {
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong there and what would be right.
+        reason: &'static str,
+    },
 }
 
 impl EffectsError {
@@ -95,6 +102,9 @@ impl core::fmt::Display for EffectsError {
                 "the set of effects \"{effects}\" has {:?}, which this include does not have; it has \"{present}\"",
                 effect.name()
             ),
+            Self::Malformed { line, reason } => {
+                write!(formatter, "line {line} of the include {reason}")
+            }
             Self::Broken { effect, function } => write!(
                 formatter,
                 "the include lacks {function}, which the effect {:?} is there for; declare it or correct the \

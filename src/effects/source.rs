@@ -1,5 +1,7 @@
 //! Shader text seen from far enough that WGSL, GLSL, HLSL and MSL look alike.
 
+use super::EffectsError;
+
 /// A condition, as far as it says something about switches.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Formula {
@@ -109,6 +111,54 @@ pub(crate) fn closing(text: &str, open: usize) -> Option<usize> {
         }
     }
     None
+}
+
+/// The most brackets within each other, and the most branches of an `if`, that a text may have: many times what shaders have,
+/// and few enough to be followed one within the other.
+const DEEPEST: usize = 64;
+
+/// Asserts that each bracket of a text without comments is closed by its like, and that none lies deeper than [`DEEPEST`].
+pub(crate) fn check_nesting(code: &str) -> Result<(), EffectsError> {
+    let line = |at: usize| 1 + code[..at].matches('\n').count();
+    let error = |at: usize, reason| Err(EffectsError::Malformed { line: line(at), reason });
+    let mut open: Vec<(usize, u8)> = Vec::new();
+    for (at, byte) in code.bytes().enumerate() {
+        match byte {
+            b'(' | b'[' | b'{' if open.len() == DEEPEST => {
+                return error(at, "opens more brackets within each other than the 64 that are followed");
+            }
+            b'(' => open.push((at, b')')),
+            b'[' => open.push((at, b']')),
+            b'{' => open.push((at, b'}')),
+            b')' | b']' | b'}' if open.pop().is_none_or(|(_, closing)| closing != byte) => {
+                return error(at, "closes a bracket that is not open; each must be closed by its like");
+            }
+            _ => {}
+        }
+    }
+    if let Some((at, _)) = open.last() {
+        return error(*at, "opens a bracket that is not closed; each must be closed by its like");
+    }
+    let chained = code.match_indices("else").find(|(at, _)| branches(code, *at) > DEEPEST);
+    match chained {
+        Some((at, _)) => error(at, "has more branches of one `if` than the 64 that are followed"),
+        None => Ok(()),
+    }
+}
+
+/// How many branches the `else` at `at` begins, one more than [`DEEPEST`] at most.
+fn branches(code: &str, mut at: usize) -> usize {
+    for count in 0..=DEEPEST {
+        let rest = code[at + 4..].trim_start();
+        let block = rest.starts_with("if").then(|| code[at..].find('{')).flatten();
+        let Some(close) = block.and_then(|block| closing(code, at + block)) else { return count };
+        let after = code[close + 1..].trim_start();
+        if !after.starts_with("else") {
+            return count + 1;
+        }
+        at = code.len() - after.len();
+    }
+    DEEPEST + 1
 }
 
 /// Whether a character may be part of a name.

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
-use super::source::{Formula, closing, is_part, without_comments, words};
+use super::source::{Formula, check_nesting, closing, is_part, without_comments, words};
 use super::{Effects, EffectsError};
 
 /// The include for a set of effects: the same text without what nothing of the set reaches. Switches that
@@ -24,9 +24,10 @@ pub fn wgsl(effects: Effects) -> Result<String, EffectsError> {
 ///
 /// # Errors
 ///
-/// As [`wgsl`].
+/// As [`wgsl`], and if the text's brackets do not match or nest deeper than any shader's.
 pub fn wgsl_from(include: &str, effects: Effects) -> Result<String, EffectsError> {
     effects.check_declared(include)?;
+    check_nesting(&without_comments(include))?;
     let switches: BTreeMap<&str, bool> = effects.switches().collect();
     let off: BTreeMap<&str, bool> = effects.switches().filter(|(_, on)| !on).collect();
     let mut items = items(include);
@@ -143,7 +144,7 @@ fn selected(text: &str, switches: &BTreeMap<&str, bool>) -> String {
     let mut out = text[..=open].to_owned();
     cut.block(open + 1..close, &mut out);
     let mut out = out + &text[close..];
-    while let Some(less) = without_one_unused(&out) {
+    while let Some(less) = without_unused(&out) {
         out = less;
     }
     out
@@ -181,7 +182,8 @@ impl Cut<'_> {
             match (next_if, next_block) {
                 (Some(start), block) if block.is_none_or(|block| start < block) => {
                     out.push_str(&self.text[at..start]);
-                    let Some(branch) = self.branch(start) else {
+                    // An `if` whose block lies beyond this one is none; what it is stays.
+                    let Some(branch) = self.branch(start).filter(|branch| branch.end <= range.end) else {
                         at = start;
                         break;
                     };
@@ -335,19 +337,74 @@ fn ends(block: &str) -> bool {
         .is_some_and(|word| ["return", "break", "continue", "discard"].contains(&word))
 }
 
-/// A function's text without one `let` whose name it never uses, if there is one. Calls that take pointers
+/// A function's text without each `let` whose name it never uses, if there is one. Calls that take pointers
 /// stay: they have effects.
-fn without_one_unused(text: &str) -> Option<String> {
+fn without_unused(text: &str) -> Option<String> {
     let code = without_comments(text);
-    for (start, _) in code.match_indices("let ") {
+    let mut uses: BTreeMap<&str, usize> = BTreeMap::new();
+    words(&code).for_each(|word| *uses.entry(word).or_default() += 1);
+    // From the last on: what only an unused name uses comes before it.
+    let (mut parts, mut from) = (Vec::new(), text.len());
+    for (start, _) in code.rmatch_indices("let ") {
         let line = code[..start].rfind('\n').map_or(0, |at| at + 1);
-        let end = start + code[start..].find(';')?;
-        let name = words(&code[start + 4..end]).next()?;
-        let pointer = code[start..end].contains("(&") || code[start..end].contains(", &");
+        let Some(end) = code[start..].find(';').map(|length| start + length) else { continue };
+        let statement = &code[start..end];
+        let Some(name) = words(&statement[4..]).next() else { continue };
+        let pointer = statement.contains("(&") || statement.contains(", &");
         let alone = code[line..start].trim().is_empty() && code[end + 1..].starts_with('\n');
-        if alone && !pointer && words(&code).filter(|word| *word == name).count() == 1 {
-            return Some(text[..line].to_owned() + &text[end + 2..]);
+        if alone && !pointer && end + 2 <= from && uses.get(name) == Some(&1) {
+            words(statement).for_each(|word| *uses.entry(word).or_default() -= 1);
+            parts.push(&text[end + 2..from]);
+            from = line;
         }
     }
-    None
+    let found = !parts.is_empty();
+    parts.push(&text[..from]);
+    found.then(|| parts.into_iter().rev().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn select(text: &str) -> Result<String, EffectsError> {
+        let set: Effects = "quad".parse()?;
+        let switches: String =
+            set.switches().map(|(switch, on)| format!("override {switch}: bool = {on};\n")).collect();
+        let roots: String = ["ltc_surface", "ltc_in_range", "ltc_material", "ltc_shading", "ltc_reflected"]
+            .iter()
+            .chain(super::super::Effect::Quad.entry().roots)
+            .map(|root| format!("fn {root}() {{ body(); }}\n"))
+            .collect();
+        wgsl_from(&format!("{switches}\n{text}\n{roots}"), set)
+    }
+
+    #[test]
+    fn an_if_without_a_block_of_its_own_stays() {
+        let text = "fn body() { if ltc_use_disk }\nstruct Other { x: f32 }\n";
+        let selected = select(text).unwrap_or_else(|error| panic!("{error}"));
+        assert!(selected.contains("fn body() { if ltc_use_disk }"), "{selected}");
+    }
+
+    #[test]
+    fn brackets_that_do_not_match_are_refused_by_line() {
+        let (open, close) = ("(".repeat(100_000), ")".repeat(100_000));
+        for (text, words) in [
+            ("fn body() {".to_owned(), "not closed"),
+            ("fn body() { ) }".to_owned(), "not open"),
+            ("fn body() { ( } )".to_owned(), "not open"),
+            (format!("fn body() {{ if ({open}x{close}) {{ }} }}"), "within each other"),
+            (format!("fn body() {{ if (x) {{ }}{} }}", " else if (x) { }".repeat(20_000)), "branches of one"),
+        ] {
+            let error = select(&text).expect_err("no shader").to_string();
+            assert!(error.contains("line 2") && error.contains(words), "{words:?} is not in {error:?}");
+        }
+    }
+
+    #[test]
+    fn many_unused_names_go_in_little_time() {
+        let lets: String = (0..20_000).map(|index| format!("    let a{} = a{index};\n", index + 1)).collect();
+        let selected = select(&format!("fn body() {{\n{lets}}}\n")).unwrap_or_else(|error| panic!("{error}"));
+        assert!(!selected.contains("let a20000 ") && selected.contains("fn body()"), "{}", selected.len());
+    }
 }

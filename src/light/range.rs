@@ -55,17 +55,20 @@ impl Light {
     ///
     /// Conservative: reflected radiance is at most radiance · peak · solid angle, and the light's solid angle is at most
     /// its area over the square of the distance to the bounding sphere. 0 if nothing anywhere reflects as much, that is
-    /// if `threshold` is at least `radiance`; infinite if `threshold` is not positive.
+    /// if `threshold` is at least `radiance`; infinite if `threshold` is not positive, if any of the numbers is
+    /// none, and for a light of a negative radius, which [`Light::check`] refuses.
     pub fn range(&self, radiance: f64, threshold: f64, peak: f64) -> f64 {
         // No surface reflects more than it receives.
         if threshold >= radiance || peak <= 0.0 {
             return 0.0;
         }
         let solid_angle = threshold / (radiance * peak);
-        if solid_angle <= 0.0 {
+        let (_, radius) = self.bounds();
+        // What is not a number, and a light of a negative radius, bounds nothing.
+        let bounds = solid_angle > 0.0 && radius >= 0.0;
+        if !bounds {
             return f64::INFINITY;
         }
-        let (_, radius) = self.bounds();
         let by_area = radius + (self.largest_projected_area() / solid_angle).sqrt();
         // A cap of the solid angle 2π (1 − cos), seen from outside the bounding sphere.
         let cosine = 1.0 - solid_angle / TAU;

@@ -40,7 +40,7 @@ pub fn light_value_with<R: Real>(
     effects: Effects,
 ) -> R::Vec3 {
     match light {
-        Light::Polygon { points: corners, two_sided } if effects.is_fast() => {
+        Light::Polygon { points: corners, two_sided } if effects.is_fast() && !corners.is_empty() => {
             let v = |v: &DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
             let points: Vec<R::Vec3> = corners.iter().map(v).collect();
             match points[..] {
@@ -59,6 +59,8 @@ pub fn light_value_with<R: Real>(
 pub fn light_value<R: Real>(surface: &LtcSurface<R>, lobes: &impl LobeSum<R>, light: &Light) -> R::Vec3 {
     let v = |v: DVec3| R::Vec3::new(R::new(v.x), R::new(v.y), R::new(v.z));
     match light {
+        // No outline encloses anything.
+        Light::Polygon { points, .. } if points.is_empty() => v(DVec3::ZERO),
         Light::Polygon { points, two_sided } => {
             let mut points = points.clone();
             if let [_, _, last] = points[..] {

@@ -7,6 +7,15 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor, value::MapAccessDeserializer};
 
 use super::Scene;
+use super::picture::read_picture;
+use crate::input;
+use crate::texture::Prefiltered;
+
+/// Bytes of the largest scene file.
+const LARGEST_FILE: usize = 16 << 20;
+
+/// Where a scene's pictures come from: the picture of a name, or the reason why there is none.
+pub type Pictures<'a> = dyn Fn(&str) -> Result<Prefiltered, String> + 'a;
 
 /// Why a file is no scene: one sentence that says where, what is wrong and what would be right.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,8 +39,11 @@ impl Scene {
     /// If the file cannot be read or is no scene.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let name = path.display().to_string();
-        match std::fs::read_to_string(path) {
-            Ok(text) => Self::parse_in(&text, &name, path.parent().unwrap_or(Path::new(""))),
+        match input::read_text(path, LARGEST_FILE) {
+            Ok(text) => {
+                let folder = path.parent().unwrap_or(Path::new(""));
+                Self::parse_with(&text, &name, &|picture| read_picture(&folder.join(picture)))
+            }
             Err(error) => Err(SceneError::new(
                 name,
                 format!("the scene file could not be read ({error}); name a file in TOML"),
@@ -45,10 +57,15 @@ impl Scene {
     ///
     /// If the text is no scene.
     pub fn parse(text: &str, name: &str) -> Result<Self, SceneError> {
-        Self::parse_in(text, name, Path::new(""))
+        Self::parse_with(text, name, &|picture| read_picture(Path::new(picture)))
     }
 
-    fn parse_in(text: &str, name: &str, folder: &Path) -> Result<Self, SceneError> {
+    /// The same with pictures from elsewhere: `pictures` gives that of a name, or the reason why there is none.
+    ///
+    /// # Errors
+    ///
+    /// If the text is no scene.
+    pub fn parse_with(text: &str, name: &str, pictures: &Pictures) -> Result<Self, SceneError> {
         let file: File = toml::from_str(text).map_err(|error| {
             let message = error.message().lines().collect::<Vec<_>>().join(", ");
             let place = match error.span() {
@@ -57,7 +74,7 @@ impl Scene {
             };
             SceneError::new(place, message)
         })?;
-        file.check(name, folder)
+        file.check(name, pictures)
     }
 }
 

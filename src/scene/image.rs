@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::label::{draw_text, text_width};
 use super::truth::Truth;
+use crate::output;
 
 /// Linear radiance, row after row from the top.
 #[derive(Clone, Debug, PartialEq)]
@@ -202,18 +203,15 @@ pub fn check_png_path(path: &Path) -> Result<(), ImageError> {
 pub fn write_png(path: &Path, panel: &Panel) -> Result<(), ImageError> {
     check_png_path(path)?;
     let refused = |reason: String| ImageError::Refused { path: path.to_owned(), reason };
-    let temporary = path.with_extension(format!("png.{}.tmp", std::process::id()));
-    let write = || -> Result<(), String> {
-        let bytes = panel.pixels.concat();
-        let colour = image::ExtendedColorType::Rgb8;
-        let format = image::ImageFormat::Png;
-        image::save_buffer_with_format(&temporary, &bytes, panel.width, panel.height, colour, format)
-            .map_err(|error| error.to_string())?;
-        std::fs::rename(&temporary, path).map_err(|error| error.to_string())
-    };
-    write().map_err(|reason| {
-        // What is left of a failed attempt helps nobody; if it cannot be removed either, the first error tells more.
-        let _ = std::fs::remove_file(&temporary);
-        refused(reason)
-    })
+    let mut file = std::io::Cursor::new(Vec::new());
+    image::write_buffer_with_format(
+        &mut file,
+        &panel.pixels.concat(),
+        panel.width,
+        panel.height,
+        image::ExtendedColorType::Rgb8,
+        image::ImageFormat::Png,
+    )
+    .map_err(|error| refused(error.to_string()))?;
+    output::write_file(path, &file.into_inner()).map_err(|error| refused(error.to_string()))
 }

@@ -3,6 +3,7 @@
 //! A scene has a camera, planes, boxes and spheres of layered materials, and lights of every shape. Light falls
 //! directly from each light on each surface: nothing casts a shadow, and surfaces do not light each other.
 
+mod case;
 mod check;
 mod effects;
 mod file;
@@ -13,9 +14,10 @@ mod picture;
 mod ray;
 mod truth;
 
-pub use file::SceneError;
+pub use case::{Case, CaseError, LONGEST_LINE, Precision};
+pub use file::{Pictures, SceneError};
 pub use image::{Comparison, Image, ImageError, Panel, check_png_path, write_png};
-pub use picture::load_picture;
+pub use picture::{decode_picture, load_picture};
 pub use ray::{Hit, sample_positions};
 pub use truth::{Truth, render_truth};
 

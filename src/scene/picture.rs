@@ -1,15 +1,20 @@
 //! Pictures on lights.
 
+use std::io::Cursor;
 use std::path::Path;
 
 use glam::DVec3;
 
 use super::{Light, SceneError};
+use crate::input;
 use crate::light;
 use crate::texture::{Prefiltered, prefilter};
 
 /// Largest number of texels along a side: what every device takes.
 const LARGEST_SIDE: u32 = 4096;
+
+/// Bytes of the largest file: a picture of that size in eight bytes a texel, and as much again.
+const LARGEST_FILE: usize = 256 << 20;
 
 /// Reads a PNG file in sRGB and makes its pyramid, linear and premultiplied by alpha.
 ///
@@ -27,14 +32,22 @@ pub fn load_picture(path: &Path) -> Result<Prefiltered, SceneError> {
 
 /// [`load_picture`], with nothing but the reason for an error.
 pub(super) fn read_picture(path: &Path) -> Result<Prefiltered, String> {
-    let bytes = std::fs::read(path).map_err(|error| error.to_string())?;
-    let picture = image::load_from_memory_with_format(&bytes, image::ImageFormat::Png)
-        .map_err(|error| error.to_string())?
-        .into_rgba32f();
-    let (width, height) = picture.dimensions();
+    decode_picture(&input::read(path, LARGEST_FILE).map_err(|error| error.to_string())?)
+}
+
+/// The pyramid of the bytes of a PNG file in sRGB, linear and premultiplied by alpha.
+///
+/// # Errors
+///
+/// The reason, if they are no PNG file or the picture is too large.
+pub fn decode_picture(bytes: &[u8]) -> Result<Prefiltered, String> {
+    let reader = || image::ImageReader::with_format(Cursor::new(bytes), image::ImageFormat::Png);
+    // Before anything is unpacked: a file of a few bytes may hold a picture of gigabytes.
+    let (width, height) = reader().into_dimensions().map_err(|error| error.to_string())?;
     if width.max(height) > LARGEST_SIDE {
         return Err(format!("it has {width} x {height} texels, and a side may have at most {LARGEST_SIDE}"));
     }
+    let picture = reader().decode().map_err(|error| error.to_string())?.into_rgba32f();
     let texels: Vec<[f32; 4]> = picture
         .pixels()
         .map(|&image::Rgba([red, green, blue, alpha])| {

@@ -99,9 +99,26 @@ impl Baseline {
     ///
     /// # Errors
     ///
-    /// If the text is none.
+    /// If the text is none, or a figure of it is not a number from 0 on.
     pub fn read(text: &str) -> Result<Self, BaselineError> {
-        toml::from_str(text).map_err(|error| BaselineError::Unreadable(error.to_string()))
+        let baseline: Self = toml::from_str(text).map_err(|error| {
+            let line = error.span().map_or(1, |span| 1 + text[..span.start].matches('\n').count());
+            let reason = error.message().lines().collect::<Vec<_>>().join(", ");
+            BaselineError::Unreadable(format!("line {line}: {reason}"))
+        })?;
+        let compiled = baseline.compiled.iter().flat_map(|compiled| &compiled.figures);
+        // Nothing is more than what is not a number, so such a figure would hide any growth.
+        match baseline
+            .executed
+            .iter()
+            .chain(compiled)
+            .find(|figure| !(0.0..f64::INFINITY).contains(&figure.value))
+        {
+            Some(Figure { method, measure, value }) => Err(BaselineError::Unreadable(format!(
+                "{method}, {measure} is {value}, and a cost is a number from 0 on"
+            ))),
+            None => Ok(baseline),
+        }
     }
 
     /// The baseline as TOML.
@@ -158,7 +175,11 @@ fn grown(before: &[Figure], now: &[Figure]) -> Vec<String> {
         let name = format!("{}, {}", figure.method, figure.measure);
         match before.iter().find(|old| same(old, figure)) {
             None => lines.push(format!("{name}: {}, not in the baseline", figure.value)),
-            Some(old) if figure.value > old.value * (1.0 + TOLERANCE) => {
+            Some(old)
+                if !figure.value.is_finite()
+                    || !old.value.is_finite()
+                    || figure.value > old.value * (1.0 + TOLERANCE) =>
+            {
                 let percent = 100.0 * (figure.value / old.value - 1.0);
                 lines.push(format!("{name}: {} was {} ({percent:+.1} %)", figure.value, old.value));
             }
@@ -206,6 +227,18 @@ mod tests {
         assert!(both.compiled.len() == 2 && both.check(&other, "").is_ok());
         let text = both.write().unwrap_or_default();
         assert_eq!(Baseline::read(&text).ok(), Some(both), "{text}");
+    }
+
+    #[test]
+    fn a_figure_that_is_no_number_hides_no_growth() {
+        for value in ["nan", "inf", "-1.0"] {
+            let text = format!("[[executed]]\nmethod = \"a\"\nmeasure = \"b\"\nvalue = {value}\n");
+            let error = Baseline::read(&text).expect_err(value).to_string();
+            assert!(error.contains("a, b is"), "{error}");
+        }
+        let error = Baseline::read("executed = 1").expect_err("no list").to_string();
+        assert!(error.contains("line 1") && !error.contains('\n'), "{error}");
+        assert!(baseline("one", 1000.0).check(&baseline("one", f64::NAN), "").is_err());
     }
 
     #[test]

@@ -17,6 +17,7 @@ mod growth;
 pub mod inputs;
 mod kernel;
 mod measure;
+mod measured;
 mod timing;
 
 pub use crate::interpret::{ExecuteError, Executed, Interpreter, Operations, SPECIAL_SLOTS, Texels};
@@ -31,6 +32,7 @@ pub use growth::{
 };
 pub use kernel::{BASELINE, COMPUTE, FRAGMENT, Kernel, MEASURE, VERTEX, baseline};
 pub use measure::{Costs, Options, measure};
+pub use measured::MeasuredError;
 pub use timing::{Effort, INPUTS, Measured, Timed, time, timed_inputs};
 
 /// Why costs could not be measured.

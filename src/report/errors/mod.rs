@@ -25,7 +25,7 @@ pub use strata::{
     ErrorSet, QUAD_SEED, REGION, STRATA, Stratum, TRIANGLE_SEED, error_row, error_rows, solid_angle,
 };
 pub use sweeps::{Error, Sweep, UNIVARIATE, sweep, univariate};
-pub use tables::{TableFileError, TableMethod, read_table};
+pub use tables::{TableFileError, TableMethod, decode_table, read_table};
 
 use rayon::prelude::*;
 

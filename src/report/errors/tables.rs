@@ -5,10 +5,14 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use half::f16;
 
+use crate::input;
 use crate::report::data::{Kind, MethodInfo};
 use crate::report::{Method, Quad, Technique, shade};
 use crate::shade::{ltc_quad, ltc_surface};
 use crate::table::{Table, TableError};
+
+/// Bytes of the largest file: text of the largest table that is baked, 1024 × 1024 texels.
+const LARGEST_FILE: usize = 256 << 20;
 
 /// A table with what makes light of it.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,17 +124,25 @@ pub enum TableFileError {
 ///
 /// If the file cannot be read or holds no such table.
 pub fn read_table(path: &Path) -> Result<(Table, Technique), TableFileError> {
-    let bytes = std::fs::read(path).map_err(|source| TableFileError::File { path: path.into(), source })?;
+    let bytes = input::read(path, LARGEST_FILE)
+        .map_err(|source| TableFileError::File { path: path.into(), source })?;
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-    let halves = match extension.as_str() {
-        "dds" => dds(&bytes),
-        "js" | "json" | "txt" => numbers(&bytes),
-        _ => raw(&bytes),
-    };
-    let content = |reason: String| TableFileError::Content { path: path.into(), reason };
-    let halves = halves.map_err(content)?;
+    decode_table(&bytes, &extension).map_err(|reason| TableFileError::Content { path: path.into(), reason })
+}
+
+/// The same from the bytes of a file with that extension, in lower case.
+///
+/// # Errors
+///
+/// The reason, if they hold no such table.
+pub fn decode_table(bytes: &[u8], extension: &str) -> Result<(Table, Technique), String> {
+    let halves = match extension {
+        "dds" => dds(bytes),
+        "js" | "json" | "txt" => numbers(bytes),
+        _ => raw(bytes),
+    }?;
     let size = (halves.len() / 16).isqrt();
-    let table = Table::from_bytes(size, &halves).map_err(|error: TableError| content(error.to_string()))?;
+    let table = Table::from_bytes(size, &halves).map_err(|error: TableError| error.to_string())?;
     let is_upright = |column: usize| {
         let [x, y, z, _] = table.texel(0, column, 0).map(f16::to_f64);
         (x - 1.0).abs().max(y.abs()).max(z.abs()) < 0.02

@@ -1,20 +1,17 @@
 //! Lights.
 
-use std::path::Path;
-
 use glam::DVec3;
 
 use super::Place;
 use crate::light;
-use crate::scene::file::LightEntry;
-use crate::scene::picture::read_picture;
+use crate::scene::file::{LightEntry, Pictures};
 use crate::scene::{Light, SceneError};
 use crate::texture::Prefiltered;
 
 /// Share of a light's size by which its fourth point may miss the parallelogram of the others.
 const SKEW: f64 = 1e-4;
 
-pub(super) fn light(entry: &LightEntry, place: &Place, folder: &Path) -> Result<Light, SceneError> {
+pub(super) fn light(entry: &LightEntry, place: &Place, pictures: &Pictures) -> Result<Light, SceneError> {
     let fields = Fields { entry, place, shape: entry.shape.as_deref().unwrap_or("polygon") };
     let shape = fields.shape()?;
     shape.check().or_else(|error| place.error(error.to_string()))?;
@@ -29,7 +26,7 @@ pub(super) fn light(entry: &LightEntry, place: &Place, folder: &Path) -> Result<
     if size < 1e-6 {
         return place.error(format!("the light is {size} large; it must measure 1e-6 or more"));
     }
-    let picture = picture(entry, &shape, place, folder)?;
+    let picture = picture(entry, &shape, place, pictures)?;
     Ok(Light { shape, normal, radiance: place.radiance("radiance", entry.radiance)?, picture })
 }
 
@@ -37,7 +34,7 @@ fn picture(
     entry: &LightEntry,
     shape: &light::Light,
     place: &Place,
-    folder: &Path,
+    pictures: &Pictures,
 ) -> Result<Option<Prefiltered>, SceneError> {
     let (Some(name), light::Light::Polygon { points, .. }) = (&entry.picture, shape) else { return Ok(None) };
     let &[a, b, c, d] = &points[..] else {
@@ -54,7 +51,7 @@ fn picture(
             fourth.to_array()
         ));
     }
-    match read_picture(&folder.join(name)) {
+    match pictures(name) {
         Ok(picture) => Ok(Some(picture)),
         Err(reason) => place.error(format!(
             "picture {name:?} could not be read ({reason}); name a PNG file, relative to the scene file"

@@ -1,10 +1,8 @@
 //! From what a file says to a scene that can be drawn.
 
-use std::path::Path;
-
 use glam::{DQuat, DVec3};
 
-use super::file::{BoxEntry, CameraEntry, Colour, File, PlaneEntry, SphereEntry};
+use super::file::{BoxEntry, CameraEntry, Colour, File, Pictures, PlaneEntry, SphereEntry};
 use super::{Camera, Light, Object, Scene, SceneError, Shape};
 use light::light;
 use material::material;
@@ -19,8 +17,8 @@ const LARGEST_LENGTH: f64 = 1e6;
 const LARGEST_RADIANCE: f64 = 1e9;
 
 impl File {
-    /// The scene, if everything in it can be drawn. Names of pictures are relative to `folder`.
-    pub(super) fn check(&self, name: &str, folder: &Path) -> Result<Scene, SceneError> {
+    /// The scene, if everything in it can be drawn. Its pictures are those of `pictures`.
+    pub(super) fn check(&self, name: &str, pictures: &Pictures) -> Result<Scene, SceneError> {
         let place = |kind: &str, index: usize| Place(format!("{name}: {kind} {}", index + 1));
         let camera = camera(&self.camera, &Place(format!("{name}: camera")))?;
         let background = Place(name.to_owned()).radiance("background", self.background)?;
@@ -37,7 +35,7 @@ impl File {
         let mut lights: Vec<Light> = Vec::new();
         for (index, entry) in self.lights.iter().enumerate() {
             let place = place("light", index);
-            lights.push(light(entry, &place, folder)?);
+            lights.push(light(entry, &place, pictures)?);
             if lights.iter().filter(|light| light.picture.is_some()).count() > Scene::MOST_PICTURES {
                 return place.error(format!(
                     "the scene has more than {} lights with a picture; leave out the others' pictures",
