@@ -109,6 +109,9 @@ fn a_light_of_no_known_size_is_never_culled() {
         assert_eq!(sphere(radius).range(1.0, 0.1, 1.0), f64::INFINITY, "{radius}");
     }
     let nan = f64::NAN;
+    let corner = DVec3::new(0.0, -3.9e261, 1.8e-307);
+    let points = vec![corner, corner, corner.with_z(nan), corner.with_z(nan)];
+    assert_eq!(Light::Polygon { points, two_sided: true }.range(1.0, 1e-20, 1.0), f64::INFINITY);
     for [radiance, threshold, peak] in [[nan, 0.1, 1.0], [1.0, nan, 1.0], [1.0, 0.1, nan]] {
         let range = sphere(1.0).range(radiance, threshold, peak);
         assert_eq!(range, f64::INFINITY, "{radiance} {threshold} {peak}");

@@ -63,13 +63,13 @@ impl Light {
             return 0.0;
         }
         let solid_angle = threshold / (radiance * peak);
-        let (_, radius) = self.bounds();
+        let ((_, radius), area) = (self.bounds(), self.largest_projected_area());
         // What is not a number, and a light of a negative radius, bounds nothing.
-        let bounds = solid_angle > 0.0 && radius >= 0.0;
+        let bounds = solid_angle > 0.0 && radius >= 0.0 && area >= 0.0;
         if !bounds {
             return f64::INFINITY;
         }
-        let by_area = radius + (self.largest_projected_area() / solid_angle).sqrt();
+        let by_area = radius + (area / solid_angle).sqrt();
         // A cap of the solid angle 2π (1 − cos), seen from outside the bounding sphere.
         let cosine = 1.0 - solid_angle / TAU;
         let by_sphere = if cosine > 0.0 { radius / ((1.0 - cosine) * (1.0 + cosine)).sqrt() } else { radius };

@@ -175,11 +175,11 @@ fn drivers() -> Vec<Driver> {
         // Mesa's cache on disk does not know all settings.
         drivers.push(Driver::new(name, false, &[(variable, value), ("MESA_SHADER_CACHE_DISABLE", "true")]));
     }
-    // It has all that the kernel calls for, but not all of OpenGL 4.3.
+    // It has all that the kernel calls for, but not all of OpenGL 4.5.
     let softpipe = [
         ("GALLIUM_DRIVER", "softpipe"),
-        ("MESA_GL_VERSION_OVERRIDE", "4.3"),
-        ("MESA_GLSL_VERSION_OVERRIDE", "430"),
+        ("MESA_GL_VERSION_OVERRIDE", "4.5"),
+        ("MESA_GLSL_VERSION_OVERRIDE", "450"),
     ];
     drivers.push(Driver { every: true, ..Driver::new("softpipe", true, &softpipe) });
     drivers.extend(further_mesas());

@@ -109,21 +109,15 @@ fn evaluate(place: &Place, level: &Level) -> Result<Output, String> {
     };
     let web = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/stacks/web");
     let output = level.folder.join("web.bin");
-    let reads_table = (!effects.layers().is_empty()).to_string();
     let mut command = Command::new("node");
     match place.api {
         Some(api) => {
             command.arg(web.join("browser.mjs")).arg(api).arg(&level.folder);
-            command
-                .arg(program)
-                .arg(reads_table)
-                .arg(&output)
-                .arg("chromium")
-                .args(CHROMIUM.split_whitespace());
+            command.arg(program).arg(&output).arg("chromium").args(CHROMIUM.split_whitespace());
         }
         None => {
             command.arg(web.join("dawn.mjs")).arg(installed("stacks/node/node_modules/webgpu/index.js")?);
-            command.arg(&level.folder).arg(program).arg(reads_table).arg(&output);
+            command.arg(&level.folder).arg(program).arg(&output);
         }
     }
     command.args(place.flags.split(' '));

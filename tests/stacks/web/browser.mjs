@@ -1,6 +1,6 @@
 // Evaluates in a browser.
 //
-//   node browser.mjs API FOLDER PROGRAM READS_TABLE OUTPUT BROWSER [arguments of the browser ...]
+//   node browser.mjs API FOLDER PROGRAM OUTPUT BROWSER [arguments of the browser ...]
 //
 // API is webgpu or webgl. FOLDER holds the kernel's arrays, OUTPUT receives the values; what the browser says of its
 // device goes to standard output. The page is served to this machine alone.
@@ -10,11 +10,10 @@ import { createServer } from 'node:http';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
-const [api, folder, program, readsTable, output, browser, ...flags] = process.argv.slice(2);
+const [api, folder, program, output, browser, ...flags] = process.argv.slice(2);
 const names = ['surfaces.bin', 'lights.bin', 'vertices.bin', 'pairs.bin', 'table.bin'];
 const inputs = Object.fromEntries(names.map(name => [name, readFileSync(join(folder, name))]));
 inputs['program'] = readFileSync(program);
-inputs['reads-table'] = Buffer.from(readsTable === 'true' ? 'yes' : '');
 const scripts = Object.fromEntries(['page.mjs', 'webgpu.mjs', 'webgl.mjs'].map(name =>
     [`/${name}`, readFileSync(new URL(name, import.meta.url))]));
 
@@ -23,7 +22,8 @@ let child, said = '';
 const finish = (status, text) => {
     (status === 0 ? process.stdout : process.stderr).write(`${text}\n`);
     child.on('exit', () => {
-        rmSync(profile, { recursive: true, force: true, maxRetries: 5 });
+        // Processes of the browser's own may still write there for a moment.
+        rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
         process.exit(status);
     });
     child.kill('SIGKILL');

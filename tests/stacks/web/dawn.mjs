@@ -1,6 +1,6 @@
 // Evaluates on Dawn, Chromium's WebGPU, in Node.
 //
-//   node dawn.mjs MODULE FOLDER PROGRAM READS_TABLE OUTPUT [options of Dawn ...]
+//   node dawn.mjs MODULE FOLDER PROGRAM OUTPUT [options of Dawn ...]
 //
 // MODULE is the path of the package `webgpu`; the rest is as for browser.mjs.
 import { readFileSync, writeFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { pathToFileURL } from 'node:url';
 
 import { evaluate } from './webgpu.mjs';
 
-const [module, folder, program, readsTable, output, ...options] = process.argv.slice(2);
+const [module, folder, program, output, ...options] = process.argv.slice(2);
 const { create, globals } = await import(pathToFileURL(module));
 Object.assign(globalThis, globals);
 // A plain copy: the reader's buffers share a larger one.
@@ -17,7 +17,6 @@ const read = path => new Uint8Array(readFileSync(path)).buffer;
 const names = ['surfaces.bin', 'lights.bin', 'vertices.bin', 'pairs.bin', 'table.bin'];
 const inputs = Object.fromEntries(names.map(name => [name, read(join(folder, name))]));
 inputs['program'] = read(program);
-inputs['reads-table'] = readsTable === 'true';
 try {
     const { values, version } = await evaluate(create(options), inputs);
     writeFileSync(output, new Uint8Array(values));

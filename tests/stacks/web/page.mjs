@@ -7,7 +7,6 @@ try {
     const { api, files } = await (await fetch('/inputs')).json();
     const inputs = {};
     for (const name of files) inputs[name] = await (await fetch(`/inputs/${name}`)).arrayBuffer();
-    inputs['reads-table'] = inputs['reads-table'].byteLength > 0;
     const run = api === 'webgpu' ? () => webgpu(navigator.gpu, inputs) : () => webgl(document.createElement('canvas'), inputs);
     if (api === 'webgpu' && !navigator.gpu) throw new Error('this browser has no WebGPU');
     const { values, version } = await run();

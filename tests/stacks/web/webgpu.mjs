@@ -40,9 +40,7 @@ export async function evaluate(gpu, inputs) {
     device.queue.writeTexture({ texture }, texels, layout, [size, size, layers]);
     const table = texture.createView({ dimension: '2d-array' });
     const sampler = device.createSampler({ magFilter: 'linear', minFilter: 'linear' });
-    let entries = [...resources, table, sampler].map((resource, binding) => ({ binding, resource }));
-    // An automatic layout has no binding for what a level does not read.
-    if (!inputs['reads-table']) entries = entries.slice(0, 5);
+    const entries = [...resources, table, sampler].map((resource, binding) => ({ binding, resource }));
 
     const group = device.createBindGroup({ layout: pipeline.getBindGroupLayout(0), entries });
     const encoder = device.createCommandEncoder();
