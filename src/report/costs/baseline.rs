@@ -175,15 +175,12 @@ fn grown(before: &[Figure], now: &[Figure]) -> Vec<String> {
         let name = format!("{}, {}", figure.method, figure.measure);
         match before.iter().find(|old| same(old, figure)) {
             None => lines.push(format!("{name}: {}, not in the baseline", figure.value)),
-            Some(old)
-                if !figure.value.is_finite()
-                    || !old.value.is_finite()
-                    || figure.value > old.value * (1.0 + TOLERANCE) =>
-            {
+            // Not the other way round: what is not a number has grown.
+            Some(old) if figure.value <= old.value * (1.0 + TOLERANCE) => {}
+            Some(old) => {
                 let percent = 100.0 * (figure.value / old.value - 1.0);
                 lines.push(format!("{name}: {} was {} ({percent:+.1} %)", figure.value, old.value));
             }
-            Some(_) => {}
         }
     }
     let gone = before.iter().filter(|old| !now.iter().any(|figure| same(old, figure)));
