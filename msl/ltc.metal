@@ -1321,7 +1321,7 @@ float ltc_angle_excess(
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (!LTC_CHEAP_HORIZON && LTC_QUAD) || (!LTC_CHEAP_HORIZON && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
 // The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
 // two has the fewest digits to lose.
 metal::float3 ltc_edge_normal(
@@ -2120,40 +2120,48 @@ LtcQuad ltc_quad_begin(
     }
 #endif
     if (!(distant_1)) {
-        metal::float4 _e231 = v_b;
+        metal::float4 _e231 = first;
         metal::float4 _e233 = v_b;
-        metal::float4 _e235 = first;
-        metal::float3 _e239 = ltc_in_frame(surface, metal::cross(_e231.xyz, _e233.xyz - _e235.xyz));
-        quad_1.a_normal = _e239;
-        metal::float4 _e241 = v_c;
-        metal::float4 _e243 = v_c;
-        metal::float4 _e245 = v_b;
-        metal::float3 _e249 = ltc_in_frame(surface, metal::cross(_e241.xyz, _e243.xyz - _e245.xyz));
-        quad_1.b_normal = _e249;
-        metal::float4 _e251 = v_d;
-        metal::float4 _e253 = v_d;
+        metal::float4 _e235 = v_b;
+        metal::float4 _e237 = first;
+        metal::float3 _e240 = ltc_edge_normal(_e231.xyz, _e233.xyz, _e235.xyz - _e237.xyz);
+        metal::float3 _e241 = ltc_in_frame(surface, _e240);
+        quad_1.a_normal = _e241;
+        metal::float4 _e243 = v_b;
+        metal::float4 _e245 = v_c;
+        metal::float4 _e247 = v_c;
+        metal::float4 _e249 = v_b;
+        metal::float3 _e252 = ltc_edge_normal(_e243.xyz, _e245.xyz, _e247.xyz - _e249.xyz);
+        metal::float3 _e253 = ltc_in_frame(surface, _e252);
+        quad_1.b_normal = _e253;
         metal::float4 _e255 = v_c;
-        metal::float3 _e259 = ltc_in_frame(surface, metal::cross(_e251.xyz, _e253.xyz - _e255.xyz));
-        quad_1.c_normal = _e259;
-        metal::float4 _e261 = v_e;
-        metal::float4 _e263 = first;
-        metal::float4 _e265 = v_e;
-        metal::float3 _e269 = ltc_in_frame(surface, metal::cross(_e261.xyz, _e263.xyz - _e265.xyz));
-        quad_1.e_normal = _e269;
-        bool _e273 = quad_1.clipped;
+        metal::float4 _e257 = v_d;
+        metal::float4 _e259 = v_d;
+        metal::float4 _e261 = v_c;
+        metal::float3 _e264 = ltc_edge_normal(_e255.xyz, _e257.xyz, _e259.xyz - _e261.xyz);
+        metal::float3 _e265 = ltc_in_frame(surface, _e264);
+        quad_1.c_normal = _e265;
+        metal::float4 _e267 = v_e;
+        metal::float4 _e269 = first;
+        metal::float4 _e271 = first;
+        metal::float4 _e273 = v_e;
+        metal::float3 _e276 = ltc_edge_normal(_e267.xyz, _e269.xyz, _e271.xyz - _e273.xyz);
+        metal::float3 _e277 = ltc_in_frame(surface, _e276);
+        quad_1.e_normal = _e277;
+        bool _e281 = quad_1.clipped;
 #if !LTC_CHEAP_HORIZON
-        if (!(ltc_use_cheap_horizon) & _e273) {
-            metal::float4 _e277 = v_d;
-            metal::float4 _e279 = v_e;
-            metal::float4 _e281 = v_e;
-            metal::float4 _e283 = v_d;
-            metal::float3 _e286 = ltc_edge_normal(_e277.xyz, _e279.xyz, _e281.xyz - _e283.xyz);
-            quad_1.rim = metal::dot(surface.normal, _e286);
+        if (!(ltc_use_cheap_horizon) & _e281) {
+            metal::float4 _e285 = v_d;
+            metal::float4 _e287 = v_e;
+            metal::float4 _e289 = v_e;
+            metal::float4 _e291 = v_d;
+            metal::float3 _e294 = ltc_edge_normal(_e285.xyz, _e287.xyz, _e289.xyz - _e291.xyz);
+            quad_1.rim = metal::dot(surface.normal, _e294);
         }
 #endif
     }
-    LtcQuad _e288 = quad_1;
-    return _e288;
+    LtcQuad _e296 = quad_1;
+    return _e296;
 }
 #endif
 
@@ -2360,20 +2368,29 @@ metal::float3 ltc_quad_lobe(
         distant = size < (0.0625 * metal::dot(_e11, _e11));
 #if !LTC_CHEAP_HORIZON
         if (!(ltc_use_cheap_horizon)) {
-            bool _e78 = distant;
-            distant = _e78 & (lowest > 0.0);
+            float _e80 = b_10.z;
+            float _e82 = c_6.z;
+            float _e85 = d_6.z;
+            float _e87 = e_3.z;
+            float highest = _e11.z + metal::max(metal::max(metal::max(_e80, _e82), metal::max(_e85, _e87)), 0.0);
+            bool _e93 = distant;
+            if (_e93 & (highest <= 0.0)) {
+                return metal::float3(0.0);
+            }
+            bool _e99 = distant;
+            distant = _e99 & ((lowest > 0.0) | (size < (0.00004 * metal::dot(_e11, _e11))));
         }
 #endif
-        bool _e82 = distant;
-        if (!(_e82)) {
-            metal::float3 _e84 = b_10;
-            b_10 = _e84 + _e11;
-            metal::float3 _e86 = c_6;
-            c_6 = _e86 + _e11;
-            metal::float3 _e88 = d_6;
-            d_6 = _e88 + _e11;
-            metal::float3 _e90 = e_3;
-            e_3 = _e90 + _e11;
+        bool _e108 = distant;
+        if (!(_e108)) {
+            metal::float3 _e110 = b_10;
+            b_10 = _e110 + _e11;
+            metal::float3 _e112 = c_6;
+            c_6 = _e112 + _e11;
+            metal::float3 _e114 = d_6;
+            d_6 = _e114 + _e11;
+            metal::float3 _e116 = e_3;
+            e_3 = _e116 + _e11;
             a_normal_2 = metal::cross(quad_6.a, quad_6.b);
             b_normal_2 = metal::cross(quad_6.a + quad_6.c, quad_6.c - quad_6.b);
             c_normal_2 = metal::cross(quad_6.a + quad_6.d, quad_6.d - quad_6.c);
@@ -2385,71 +2402,71 @@ metal::float3 ltc_quad_lobe(
 #if LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon) {
         moved = quad_6;
-        bool _e123 = distant;
-        moved.distant = _e123;
+        bool _e149 = distant;
+        moved.distant = _e149;
         moved.a = _e11;
-        metal::float3 _e126 = b_10;
-        moved.b = _e126;
-        metal::float3 _e128 = c_6;
-        moved.c = _e128;
-        metal::float3 _e130 = d_6;
-        moved.d = _e130;
-        metal::float3 _e132 = e_3;
-        moved.e = _e132;
-        metal::float3 _e134 = a_normal_2;
-        metal::float3 _e135 = ltc_transform_framed_normal(lobe, _e134);
-        moved.a_normal = _e135;
-        metal::float3 _e137 = b_normal_2;
-        metal::float3 _e138 = ltc_transform_framed_normal(lobe, _e137);
-        moved.b_normal = _e138;
-        metal::float3 _e140 = c_normal_2;
-        metal::float3 _e141 = ltc_transform_framed_normal(lobe, _e140);
-        moved.c_normal = _e141;
-        metal::float3 _e143 = e_normal_2;
-        metal::float3 _e144 = ltc_transform_framed_normal(lobe, _e143);
-        moved.e_normal = _e144;
-        LtcQuad _e145 = moved;
-        metal::float3 _e146 = ltc_quad_form_factor(_e145);
-        metal::float3 winding = _e146 * LTC_OVER_TWO_PI;
+        metal::float3 _e152 = b_10;
+        moved.b = _e152;
+        metal::float3 _e154 = c_6;
+        moved.c = _e154;
+        metal::float3 _e156 = d_6;
+        moved.d = _e156;
+        metal::float3 _e158 = e_3;
+        moved.e = _e158;
+        metal::float3 _e160 = a_normal_2;
+        metal::float3 _e161 = ltc_transform_framed_normal(lobe, _e160);
+        moved.a_normal = _e161;
+        metal::float3 _e163 = b_normal_2;
+        metal::float3 _e164 = ltc_transform_framed_normal(lobe, _e163);
+        moved.b_normal = _e164;
+        metal::float3 _e166 = c_normal_2;
+        metal::float3 _e167 = ltc_transform_framed_normal(lobe, _e166);
+        moved.c_normal = _e167;
+        metal::float3 _e169 = e_normal_2;
+        metal::float3 _e170 = ltc_transform_framed_normal(lobe, _e169);
+        moved.e_normal = _e170;
+        LtcQuad _e171 = moved;
+        metal::float3 _e172 = ltc_quad_form_factor(_e171);
+        metal::float3 winding = _e172 * LTC_OVER_TWO_PI;
         metal::float3 form_factor = quad_6.front ? winding : -(winding);
-        float _e154 = ltc_round_above(form_factor, form_factor.z);
-        return metal::float3(form_factor.xy, _e154) * lobe.share;
+        float _e180 = ltc_round_above(form_factor, form_factor.z);
+        return metal::float3(form_factor.xy, _e180) * lobe.share;
     }
 #endif
-    bool _e161 = distant;
+    bool _e187 = distant;
 #if !LTC_CHEAP_DISTANCE
-    if (!(ltc_use_cheap_distance) & _e161) {
-        metal::float3 _e163 = b_10;
-        metal::float3 _e164 = c_6;
-        metal::float3 _e165 = d_6;
-        metal::float3 _e166 = e_3;
-        metal::float3 _e168 = ltc_far_pentagon(_e11, _e163, _e164, _e165, _e166, quad_6.clipped);
-        sum = _e168;
+    if (!(ltc_use_cheap_distance) & _e187) {
+        metal::float3 _e189 = b_10;
+        metal::float3 _e190 = c_6;
+        metal::float3 _e191 = d_6;
+        metal::float3 _e192 = e_3;
+        metal::float3 _e194 = ltc_far_pentagon(_e11, _e189, _e190, _e191, _e192, quad_6.clipped);
+        sum = _e194;
     } else {
 #else
     {
 #endif
-        metal::float3 _e169 = b_10;
-        metal::float3 _e170 = c_6;
-        metal::float3 _e171 = d_6;
-        metal::float3 _e172 = e_3;
-        metal::float3 _e173 = a_normal_2;
-        metal::float3 _e174 = ltc_transform_framed_normal(lobe, _e173);
-        metal::float3 _e175 = b_normal_2;
-        metal::float3 _e176 = ltc_transform_framed_normal(lobe, _e175);
-        metal::float3 _e177 = c_normal_2;
-        metal::float3 _e178 = ltc_transform_framed_normal(lobe, _e177);
-        float _e179 = rim;
-        metal::float3 _e183 = ltc_transform_framed_normal(lobe, metal::float3(0.0, 0.0, _e179));
-        metal::float3 _e184 = e_normal_2;
-        metal::float3 _e185 = ltc_transform_framed_normal(lobe, _e184);
-        float _e187 = ltc_horizon(lobe);
-        metal::float3 _e188 = ltc_pentagon(_e11, _e169, _e170, _e171, _e172, _e174, _e176, _e178, _e183, _e185, quad_6.clipped, _e187);
-        sum = _e188;
+        metal::float3 _e195 = b_10;
+        metal::float3 _e196 = c_6;
+        metal::float3 _e197 = d_6;
+        metal::float3 _e198 = e_3;
+        metal::float3 _e199 = a_normal_2;
+        metal::float3 _e200 = ltc_transform_framed_normal(lobe, _e199);
+        metal::float3 _e201 = b_normal_2;
+        metal::float3 _e202 = ltc_transform_framed_normal(lobe, _e201);
+        metal::float3 _e203 = c_normal_2;
+        metal::float3 _e204 = ltc_transform_framed_normal(lobe, _e203);
+        float _e205 = rim;
+        metal::float3 _e209 = ltc_transform_framed_normal(lobe, metal::float3(0.0, 0.0, _e205));
+        metal::float3 _e210 = e_normal_2;
+        metal::float3 _e211 = ltc_transform_framed_normal(lobe, _e210);
+        float _e213 = ltc_horizon(lobe);
+        metal::float3 _e214 = ltc_pentagon(_e11, _e195, _e196, _e197, _e198, _e200, _e202, _e204, _e209, _e211, quad_6.clipped, _e213);
+        sum = _e214;
     }
-    metal::float3 _e189 = sum;
-    metal::float3 _e194 = ltc_received_vector(_e189 * LTC_OVER_TWO_PI, true, quad_6.two_sided);
-    return _e194;
+    metal::float3 _e215 = sum;
+    metal::float3 _e220 = ltc_received_vector(_e215 * LTC_OVER_TWO_PI, true, quad_6.two_sided);
+    return _e220;
 }
 #endif
 

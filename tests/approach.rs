@@ -68,6 +68,9 @@ fn no_level_jumps() {
                         let unit = match approach.measure {
                             Measure::Absolute => 1.0,
                             Measure::Relative => here.exact.max(there.exact),
+                            Measure::OfLight => {
+                                method.exact(&tables, &setting)[0].max(method.exact(&tables, &moved)[0])
+                            }
                         };
                         let allowed = (there.exact - here.exact).abs()
                             + 2.0 * unit * approach.bound(method, &setting, parameter);
@@ -235,4 +238,21 @@ fn scenes_beyond_the_published_technique_are_refused() {
     let error = scene_by_both(&device(), &scene("lights.toml"), [16, 9]).expect_err("it has disks and coats");
     assert!(matches!(error, BothError::Unpublished { .. }), "{error}");
     assert!(error.to_string().starts_with("light "), "{error}");
+}
+
+/// The largest share of its bound that the standard level takes along an approach.
+fn share_of_bound(name: &str) -> f64 {
+    worst(name, Method::Level(Quality::Standard)).0
+}
+
+#[test]
+fn a_quad_whose_vertex_touches_the_point_keeps_its_digits() {
+    let share = share_of_bound("vertex");
+    assert!(share <= 1.0, "{share:e} of the bound");
+}
+
+#[test]
+fn a_far_quad_on_the_lobes_horizon_keeps_its_digits() {
+    let share = share_of_bound("lobe-horizon");
+    assert!(share <= 1.0, "{share:e} of the bound");
 }

@@ -1038,13 +1038,13 @@ fn ltc_quad_begin(surface: LtcSurface, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
         quad.e = ltc_rise_in_frame(surface, v_e);
     }
     if (!distant) {
-        // Cross products of neighbouring vertices, from the edges' own vectors and from the end at the cut, which may be
-        // the one close to the surface point. In the caller's space: where an edge along one of its axes all but touches
+        // Cross products of neighbouring vertices, from the edges' own vectors and from the nearer end, for any of them may
+        // be close to the surface point. In the caller's space: where an edge along one of its axes all but touches
         // that point, a turn of its ends would lose the distance.
-        quad.a_normal = ltc_in_frame(surface, cross(v_b.xyz, v_b.xyz - first.xyz));
-        quad.b_normal = ltc_in_frame(surface, cross(v_c.xyz, v_c.xyz - v_b.xyz));
-        quad.c_normal = ltc_in_frame(surface, cross(v_d.xyz, v_d.xyz - v_c.xyz));
-        quad.e_normal = ltc_in_frame(surface, cross(v_e.xyz, first.xyz - v_e.xyz));
+        quad.a_normal = ltc_in_frame(surface, ltc_edge_normal(first.xyz, v_b.xyz, v_b.xyz - first.xyz));
+        quad.b_normal = ltc_in_frame(surface, ltc_edge_normal(v_b.xyz, v_c.xyz, v_c.xyz - v_b.xyz));
+        quad.c_normal = ltc_in_frame(surface, ltc_edge_normal(v_c.xyz, v_d.xyz, v_d.xyz - v_c.xyz));
+        quad.e_normal = ltc_in_frame(surface, ltc_edge_normal(v_e.xyz, first.xyz, first.xyz - v_e.xyz));
         if (!ltc_use_cheap_horizon & quad.clipped) {
             // The edge from exit to entry lies on the horizon, whatever rounding says of its normal.
             quad.rim = dot(surface.normal, ltc_edge_normal(v_d.xyz, v_e.xyz, v_e.xyz - v_d.xyz));
@@ -1112,7 +1112,13 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
         let size = max(max(dot(b, b), dot(c, c)), max(dot(d, d), dot(e, e)));
         distant = size < 0.0625 * dot(a, a);
         if (!ltc_use_cheap_horizon) {
-            distant = distant & (lowest > 0.0);
+            let highest = a.z + max(max(max(b.z, c.z), max(d.z, e.z)), 0.0);
+            if (distant & (highest <= 0.0)) {
+                return vec3<f32>(0.0);
+            }
+            // A light smaller than 0.006 of its distance shows on the lobe's horizon less than that share of itself; cut
+            // as a near one it would have no digits left.
+            distant = distant & ((lowest > 0.0) | (size < 4e-5 * dot(a, a)));
         }
         if (!distant) {
             b += a;

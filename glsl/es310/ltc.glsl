@@ -1202,7 +1202,7 @@ float ltc_angle_excess(float k) {
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (!LTC_CHEAP_HORIZON && LTC_QUAD) || (!LTC_CHEAP_HORIZON && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
 // The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
 // two has the fewest digits to lose.
 vec3 ltc_edge_normal(vec3 a, vec3 b, vec3 side) {
@@ -1873,40 +1873,48 @@ LtcQuad ltc_quad_begin(LtcSurface surface, vec3 a_9, vec3 b_8, vec3 c_4, vec3 d_
     }
 #endif
     if (!(distant_1)) {
-        vec4 _e231 = v_b;
+        vec4 _e231 = first;
         vec4 _e233 = v_b;
-        vec4 _e235 = first;
-        vec3 _e239 = ltc_in_frame(surface, cross(_e231.xyz, (_e233.xyz - _e235.xyz)));
-        quad.a_normal = _e239;
-        vec4 _e241 = v_c;
-        vec4 _e243 = v_c;
-        vec4 _e245 = v_b;
-        vec3 _e249 = ltc_in_frame(surface, cross(_e241.xyz, (_e243.xyz - _e245.xyz)));
-        quad.b_normal = _e249;
-        vec4 _e251 = v_d;
-        vec4 _e253 = v_d;
+        vec4 _e235 = v_b;
+        vec4 _e237 = first;
+        vec3 _e240 = ltc_edge_normal(_e231.xyz, _e233.xyz, (_e235.xyz - _e237.xyz));
+        vec3 _e241 = ltc_in_frame(surface, _e240);
+        quad.a_normal = _e241;
+        vec4 _e243 = v_b;
+        vec4 _e245 = v_c;
+        vec4 _e247 = v_c;
+        vec4 _e249 = v_b;
+        vec3 _e252 = ltc_edge_normal(_e243.xyz, _e245.xyz, (_e247.xyz - _e249.xyz));
+        vec3 _e253 = ltc_in_frame(surface, _e252);
+        quad.b_normal = _e253;
         vec4 _e255 = v_c;
-        vec3 _e259 = ltc_in_frame(surface, cross(_e251.xyz, (_e253.xyz - _e255.xyz)));
-        quad.c_normal = _e259;
-        vec4 _e261 = v_e;
-        vec4 _e263 = first;
-        vec4 _e265 = v_e;
-        vec3 _e269 = ltc_in_frame(surface, cross(_e261.xyz, (_e263.xyz - _e265.xyz)));
-        quad.e_normal = _e269;
-        bool _e273 = quad.clipped;
+        vec4 _e257 = v_d;
+        vec4 _e259 = v_d;
+        vec4 _e261 = v_c;
+        vec3 _e264 = ltc_edge_normal(_e255.xyz, _e257.xyz, (_e259.xyz - _e261.xyz));
+        vec3 _e265 = ltc_in_frame(surface, _e264);
+        quad.c_normal = _e265;
+        vec4 _e267 = v_e;
+        vec4 _e269 = first;
+        vec4 _e271 = first;
+        vec4 _e273 = v_e;
+        vec3 _e276 = ltc_edge_normal(_e267.xyz, _e269.xyz, (_e271.xyz - _e273.xyz));
+        vec3 _e277 = ltc_in_frame(surface, _e276);
+        quad.e_normal = _e277;
+        bool _e281 = quad.clipped;
 #if !LTC_CHEAP_HORIZON
-        if ((!(ltc_use_cheap_horizon) && _e273)) {
-            vec4 _e277 = v_d;
-            vec4 _e279 = v_e;
-            vec4 _e281 = v_e;
-            vec4 _e283 = v_d;
-            vec3 _e286 = ltc_edge_normal(_e277.xyz, _e279.xyz, (_e281.xyz - _e283.xyz));
-            quad.rim = dot(surface.normal, _e286);
+        if ((!(ltc_use_cheap_horizon) && _e281)) {
+            vec4 _e285 = v_d;
+            vec4 _e287 = v_e;
+            vec4 _e289 = v_e;
+            vec4 _e291 = v_d;
+            vec3 _e294 = ltc_edge_normal(_e285.xyz, _e287.xyz, (_e289.xyz - _e291.xyz));
+            quad.rim = dot(surface.normal, _e294);
         }
 #endif
     }
-    LtcQuad _e288 = quad;
-    return _e288;
+    LtcQuad _e296 = quad;
+    return _e296;
 }
 #endif
 
@@ -2089,20 +2097,29 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
         distant = (size < (0.0625 * dot(_e11, _e11)));
 #if !LTC_CHEAP_HORIZON
         if (!(ltc_use_cheap_horizon)) {
-            bool _e78 = distant;
-            distant = (_e78 && (lowest > 0.0));
+            float _e80 = b_10.z;
+            float _e82 = c_6.z;
+            float _e85 = d_6.z;
+            float _e87 = e_3.z;
+            float highest = (_e11.z + max(max(max(_e80, _e82), max(_e85, _e87)), 0.0));
+            bool _e93 = distant;
+            if ((_e93 && (highest <= 0.0))) {
+                return vec3(0.0);
+            }
+            bool _e99 = distant;
+            distant = (_e99 && ((lowest > 0.0) || (size < (4e-5 * dot(_e11, _e11)))));
         }
 #endif
-        bool _e82 = distant;
-        if (!(_e82)) {
-            vec3 _e84 = b_10;
-            b_10 = (_e84 + _e11);
-            vec3 _e86 = c_6;
-            c_6 = (_e86 + _e11);
-            vec3 _e88 = d_6;
-            d_6 = (_e88 + _e11);
-            vec3 _e90 = e_3;
-            e_3 = (_e90 + _e11);
+        bool _e108 = distant;
+        if (!(_e108)) {
+            vec3 _e110 = b_10;
+            b_10 = (_e110 + _e11);
+            vec3 _e112 = c_6;
+            c_6 = (_e112 + _e11);
+            vec3 _e114 = d_6;
+            d_6 = (_e114 + _e11);
+            vec3 _e116 = e_3;
+            e_3 = (_e116 + _e11);
             a_normal_2 = cross(quad.a, quad.b);
             b_normal_2 = cross((quad.a + quad.c), (quad.c - quad.b));
             c_normal_2 = cross((quad.a + quad.d), (quad.d - quad.c));
@@ -2114,71 +2131,71 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
 #if LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon) {
         moved = quad;
-        bool _e123 = distant;
-        moved.distant = _e123;
+        bool _e149 = distant;
+        moved.distant = _e149;
         moved.a = _e11;
-        vec3 _e126 = b_10;
-        moved.b = _e126;
-        vec3 _e128 = c_6;
-        moved.c = _e128;
-        vec3 _e130 = d_6;
-        moved.d = _e130;
-        vec3 _e132 = e_3;
-        moved.e = _e132;
-        vec3 _e134 = a_normal_2;
-        vec3 _e135 = ltc_transform_framed_normal(lobe, _e134);
-        moved.a_normal = _e135;
-        vec3 _e137 = b_normal_2;
-        vec3 _e138 = ltc_transform_framed_normal(lobe, _e137);
-        moved.b_normal = _e138;
-        vec3 _e140 = c_normal_2;
-        vec3 _e141 = ltc_transform_framed_normal(lobe, _e140);
-        moved.c_normal = _e141;
-        vec3 _e143 = e_normal_2;
-        vec3 _e144 = ltc_transform_framed_normal(lobe, _e143);
-        moved.e_normal = _e144;
-        LtcQuad _e145 = moved;
-        vec3 _e146 = ltc_quad_form_factor(_e145);
-        vec3 winding = (_e146 * LTC_OVER_TWO_PI);
+        vec3 _e152 = b_10;
+        moved.b = _e152;
+        vec3 _e154 = c_6;
+        moved.c = _e154;
+        vec3 _e156 = d_6;
+        moved.d = _e156;
+        vec3 _e158 = e_3;
+        moved.e = _e158;
+        vec3 _e160 = a_normal_2;
+        vec3 _e161 = ltc_transform_framed_normal(lobe, _e160);
+        moved.a_normal = _e161;
+        vec3 _e163 = b_normal_2;
+        vec3 _e164 = ltc_transform_framed_normal(lobe, _e163);
+        moved.b_normal = _e164;
+        vec3 _e166 = c_normal_2;
+        vec3 _e167 = ltc_transform_framed_normal(lobe, _e166);
+        moved.c_normal = _e167;
+        vec3 _e169 = e_normal_2;
+        vec3 _e170 = ltc_transform_framed_normal(lobe, _e169);
+        moved.e_normal = _e170;
+        LtcQuad _e171 = moved;
+        vec3 _e172 = ltc_quad_form_factor(_e171);
+        vec3 winding = (_e172 * LTC_OVER_TWO_PI);
         vec3 form_factor = (quad.front ? winding : -(winding));
-        float _e154 = ltc_round_above(form_factor, form_factor.z);
-        return (vec3(form_factor.xy, _e154) * lobe.share);
+        float _e180 = ltc_round_above(form_factor, form_factor.z);
+        return (vec3(form_factor.xy, _e180) * lobe.share);
     }
 #endif
-    bool _e161 = distant;
+    bool _e187 = distant;
 #if !LTC_CHEAP_DISTANCE
-    if ((!(ltc_use_cheap_distance) && _e161)) {
-        vec3 _e163 = b_10;
-        vec3 _e164 = c_6;
-        vec3 _e165 = d_6;
-        vec3 _e166 = e_3;
-        vec3 _e168 = ltc_far_pentagon(_e11, _e163, _e164, _e165, _e166, quad.clipped);
-        sum = _e168;
+    if ((!(ltc_use_cheap_distance) && _e187)) {
+        vec3 _e189 = b_10;
+        vec3 _e190 = c_6;
+        vec3 _e191 = d_6;
+        vec3 _e192 = e_3;
+        vec3 _e194 = ltc_far_pentagon(_e11, _e189, _e190, _e191, _e192, quad.clipped);
+        sum = _e194;
     } else {
 #else
     {
 #endif
-        vec3 _e169 = b_10;
-        vec3 _e170 = c_6;
-        vec3 _e171 = d_6;
-        vec3 _e172 = e_3;
-        vec3 _e173 = a_normal_2;
-        vec3 _e174 = ltc_transform_framed_normal(lobe, _e173);
-        vec3 _e175 = b_normal_2;
-        vec3 _e176 = ltc_transform_framed_normal(lobe, _e175);
-        vec3 _e177 = c_normal_2;
-        vec3 _e178 = ltc_transform_framed_normal(lobe, _e177);
-        float _e179 = rim;
-        vec3 _e183 = ltc_transform_framed_normal(lobe, vec3(0.0, 0.0, _e179));
-        vec3 _e184 = e_normal_2;
-        vec3 _e185 = ltc_transform_framed_normal(lobe, _e184);
-        float _e187 = ltc_horizon(lobe);
-        vec3 _e188 = ltc_pentagon(_e11, _e169, _e170, _e171, _e172, _e174, _e176, _e178, _e183, _e185, quad.clipped, _e187);
-        sum = _e188;
+        vec3 _e195 = b_10;
+        vec3 _e196 = c_6;
+        vec3 _e197 = d_6;
+        vec3 _e198 = e_3;
+        vec3 _e199 = a_normal_2;
+        vec3 _e200 = ltc_transform_framed_normal(lobe, _e199);
+        vec3 _e201 = b_normal_2;
+        vec3 _e202 = ltc_transform_framed_normal(lobe, _e201);
+        vec3 _e203 = c_normal_2;
+        vec3 _e204 = ltc_transform_framed_normal(lobe, _e203);
+        float _e205 = rim;
+        vec3 _e209 = ltc_transform_framed_normal(lobe, vec3(0.0, 0.0, _e205));
+        vec3 _e210 = e_normal_2;
+        vec3 _e211 = ltc_transform_framed_normal(lobe, _e210);
+        float _e213 = ltc_horizon(lobe);
+        vec3 _e214 = ltc_pentagon(_e11, _e195, _e196, _e197, _e198, _e200, _e202, _e204, _e209, _e211, quad.clipped, _e213);
+        sum = _e214;
     }
-    vec3 _e189 = sum;
-    vec3 _e194 = ltc_received_vector((_e189 * LTC_OVER_TWO_PI), true, quad.two_sided);
-    return _e194;
+    vec3 _e215 = sum;
+    vec3 _e220 = ltc_received_vector((_e215 * LTC_OVER_TWO_PI), true, quad.two_sided);
+    return _e220;
 }
 #endif
 

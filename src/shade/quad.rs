@@ -358,10 +358,11 @@ pub fn ltc_quad_begin<R: Real>(
         [a.cross(b), (a + c).cross(c - b), (a + d).cross(d - c), (a + e).cross(e - d), e.cross(a)]
     } else {
         // In the caller's space: where an edge along one of its axes all but touches the surface point, a turn of its
-        // ends would lose the distance. From the end at the cut, which may be the one close to that point.
+        // ends would lose the distance.
         let [a, b, c, d, e] = v;
         let rim = ltc_edge_normal::<R>(d, e, e - d);
-        [b.cross(b - a), c.cross(c - b), d.cross(d - c), rim, e.cross(a - e)]
+        let normal = |a, b: R::Vec3| ltc_edge_normal::<R>(a, b, b - a);
+        [normal(a, b), normal(b, c), normal(c, d), rim, normal(e, a)]
             .map(|normal| ltc_in_frame(surface, normal))
     };
     // The edge from exit to entry lies on the horizon, whatever rounding says of its normal.
@@ -407,7 +408,12 @@ pub fn ltc_quad_lobe<R: Real>(quad: &LtcQuad<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     let lowest = a.z() + others.iter().fold(zero, |low, v| low.min(v.z()));
     let size = others.iter().fold(zero, |size, v| size.max(v.dot(*v)));
     let small = size < R::new(0.0625) * a.dot(a);
-    let sum = if quad.distant & (lowest > zero) & small {
+    let highest = a.z() + others.iter().fold(zero, |high, v| high.max(v.z()));
+    if quad.distant & small & (highest <= zero) {
+        return R::Vec3::new(zero, zero, zero);
+    }
+    let whole = (lowest > zero) | (size < R::new(4e-5) * a.dot(a));
+    let sum = if quad.distant & small & whole {
         ltc_far_pentagon::<R>(a, others)
     } else {
         let normals = quad.normals.map(|normal| ltc_transform_framed_normal(lobe, normal));

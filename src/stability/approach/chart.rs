@@ -81,6 +81,7 @@ fn small_chart(curves: &[&Curve]) -> SmallChart {
     let measure = match approach.measure {
         Measure::Absolute => "error",
         Measure::Relative => "relative error",
+        Measure::OfLight => "error of its form factor",
     };
     SmallChart {
         title: approach.title.to_owned(),

@@ -6,7 +6,7 @@ use super::published::{self, EdgeForm};
 use super::setting::Setting;
 use super::{exact, round};
 use crate::effects::{Effects, Quality};
-use crate::light::Light;
+use crate::light::{Light, polygon_value};
 use crate::report::compare::published_table;
 use crate::shade::{LTC_TINY, LobeSum, Real, Vector, ltc_fast_quad, ltc_quad, ltc_surface};
 use crate::table::{Layer, Table};
@@ -66,6 +66,8 @@ impl Method {
     pub fn of(approach: &Approach) -> Vec<Self> {
         let light = approach.setting(approach.range[1], 0).light;
         let mut methods = match light {
+            // The horizon is that of this library's own lobe.
+            Light::Polygon { .. } if approach.measure == Measure::OfLight => Vec::new(),
             Light::Polygon { .. } => {
                 vec![Self::Polygon(EdgeForm::Printed), Self::Polygon(EdgeForm::Fitted)]
             }
@@ -141,8 +143,9 @@ pub(super) fn exact_value(method: Method, tables: &Tables, setting: &Setting) ->
     match (method, &setting.light) {
         (Method::Level(Quality::Fast), _) => level_value::<f64>(Quality::Fast, tables, setting),
         (Method::Level(level), Light::Polygon { points, .. }) => {
-            // An integral that shares no formula with the library.
-            let [_, specular, fresnel] = level_value::<f64>(level, tables, setting);
+            // An integral that shares no formula with the library, and in lobes the walk along any polygon's edges, which cuts
+            // each of them wherever it is.
+            let [_, specular, fresnel] = streamed_value(level, tables, setting, points);
             [exact::form_factor(exact::frame(setting), setting, points), specular, fresnel]
         }
         (Method::Level(level), _) => level_value::<f64>(level, tables, setting),
@@ -186,6 +189,13 @@ fn parts<R: Real>(diffuse: R, specular: R, [albedo, fresnel]: [R; 2]) -> Parts {
     [diffuse, albedo * specular, fresnel * specular].map(R::to_f64)
 }
 
+/// A polygon by the functions for any number of vertices, in f64.
+fn streamed_value(level: Quality, tables: &Tables, setting: &Setting, points: &[glam::DVec3]) -> Parts {
+    let surface = ltc_surface(setting.position, setting.normal, setting.view, setting.roughness);
+    let lobes = tables.native.specular(&surface, effects(level));
+    polygon_value::<f64>(&surface, &lobes, points, false, setting.is_two_sided()).to_array()
+}
+
 /// Four vertices are a quad, however far rounding has bent it.
 fn light_value<R: Real>(
     surface: &crate::shade::LtcSurface<R>,
@@ -224,12 +234,14 @@ pub fn read(approach: &Approach, method: Method, tables: &Tables, setting: &Sett
         Part::Specular => 1,
     };
     let value = value::<f32>(method, tables, setting)[part];
-    let exact = exact_value(method, tables, setting)[part];
+    let all = exact_value(method, tables, setting);
+    let exact = all[part];
     let difference = (value - exact).abs();
     let error = match approach.measure {
         _ if !value.is_finite() => f64::INFINITY,
         Measure::Absolute => difference,
         Measure::Relative => difference / exact.max(LTC_TINY),
+        Measure::OfLight => difference / all[0].max(LTC_TINY),
     };
     Reading { value, exact, error }
 }

@@ -22,6 +22,8 @@ pub enum Measure {
     Absolute,
     /// The difference over the value.
     Relative,
+    /// The difference over the form factor of the light: what a mirror would show of it.
+    OfLight,
 }
 
 /// A way to a hard place: a surface and a light that depend on one number.
@@ -66,7 +68,7 @@ impl Approach {
         }
         match self.name {
             "gap" | "gap-glossy" | "edge-line" | "edge-on" => bound + (3e-7 / parameter).min(1.0),
-            "distance" | "distance-glossy" => bound + 1e-6 / parameter,
+            "distance" | "distance-glossy" | "lobe-horizon" => bound + 1e-6 / parameter,
             "view-normal" => bound + 1e-3,
             _ => bound,
         }
@@ -90,16 +92,16 @@ fn specular_contact_bound(setting: &Setting, gap: f64) -> f64 {
     (specular_bound(setting, gap) + 1e-10 / gap).min(1.0)
 }
 
-/// `ltc_quad`: where an edge passes by at a share of the distance of its ends.
-fn vertex_bound(_: &Setting, gap: f64) -> f64 {
-    (4e-8 * 3.0 / gap).clamp(1e-6, 1.0)
-}
-
 /// `ltc_sphere`: the outline moves with the rounding of the distance. Below 4e-7 radii that leaves it open on which side of it the
 /// point is.
 fn sphere_bound(setting: &Setting, gap: f64) -> f64 {
     let Light::Sphere { radius, .. } = setting.light else { panic!("{setting:?} has no sphere") };
     (1e-7 / (gap / radius).sqrt()).max(1e-6)
+}
+
+/// `ltc_quad_lobe`: a small light is not cut at a lobe's own horizon.
+fn lobe_horizon_bound(_: &Setting, _: f64) -> f64 {
+    2e-2
 }
 
 const NEAR: [f64; 2] = [1e-8, 1.0];
@@ -140,6 +142,10 @@ impl Approach {
         Self { measure: Measure::Relative, bound: relative_bound, ..self }
     }
 
+    const fn of_light(self) -> Self {
+        Self { measure: Measure::OfLight, bound: lobe_horizon_bound, ..self }
+    }
+
     const fn bounded(self, bound: fn(&Setting, f64) -> f64) -> Self {
         Self { bound, ..self }
     }
@@ -154,7 +160,7 @@ pub fn approaches() -> Vec<Approach> {
             .specular()
             .bounded(specular_contact_bound),
         approach("head-on", "The point touches the light's face", "gap", make::ceiling),
-        approach("vertex", "The point touches a vertex", "gap", make::vertex).bounded(vertex_bound),
+        approach("vertex", "The point touches a vertex", "gap", make::vertex),
         approach("edge-line", "On the line of an edge", "gap", make::edge_line),
         approach("distance", "A light far away", "size / distance", make::distance)
             .relative()
@@ -163,6 +169,10 @@ pub fn approaches() -> Vec<Approach> {
             .specular()
             .relative()
             .within(1e-6, 1.0),
+        approach("lobe-horizon", "Far away, on the lobe's horizon", "size / distance", make::lobe_horizon)
+            .specular()
+            .of_light()
+            .within(1e-5, 1.0),
         approach("rising", "Just its edge above the horizon", "height", make::rising),
         approach("lifted", "Lower edge just above the horizon", "height", make::lifted),
         approach("sunk", "Lower edge just below the horizon", "depth", make::sunk),

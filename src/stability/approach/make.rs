@@ -6,6 +6,8 @@ use glam::{DQuat, DVec3};
 
 use super::setting::Setting;
 use crate::light::Light;
+use crate::shade::ltc_surface;
+use crate::table::Table;
 
 /// Numbers that fill the unit cube evenly (Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences").
 pub(super) struct Variation(pub usize);
@@ -116,6 +118,23 @@ pub(super) fn distance_glossy(size: f64, variation: &Variation) -> Setting {
     let distance = variation.between(3, 1.0, 4.0);
     let centre = DVec3::new(-setting.view.x, -setting.view.y, setting.view.z) * distance;
     setting.light = facing(centre, size * distance, 0.5, variation.between(2, 0.0, TAU));
+    setting
+}
+
+/// Half of it above the horizon of the standard level's lobe.
+pub(super) fn lobe_horizon(size: f64, variation: &Variation) -> Setting {
+    let mut setting = distant(size, variation.between(3, 0.3, 0.8), variation);
+    let surface = ltc_surface(setting.position, setting.normal, setting.view, setting.roughness);
+    let horizon = Table::default().lobe::<f64>(&surface).axis_z.normalize();
+    // On both horizons, turned along that of the lobe to where it is above that of the surface.
+    let level = horizon.cross(DVec3::Z).normalize();
+    let up = level.cross(horizon);
+    let up = if up.z < 0.0 { -up } else { up };
+    let azimuth = variation.between(0, 0.2, 1.4);
+    let toward =
+        level * azimuth.cos() + up * azimuth.sin() + horizon * (size * variation.between(1, -0.6, 0.6));
+    let centre = toward.normalize() * variation.between(3, 1.0, 4.0);
+    setting.light = facing(centre, size * centre.length(), 0.5, variation.between(2, 0.0, TAU));
     setting
 }
 
