@@ -658,6 +658,14 @@ static const float LTC_MEAN_SHIFT = 0.5;
 // Smallest length by which anything is divided; a reciprocal of it is still finite.
 static const float LTC_TINY = 1e-37;
 
+// Extent of a sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
+// reciprocal of it times an inverse root of LTC_TINY is finite, in whichever order a compiler takes a product.
+static const float LTC_SMALLEST = 1e-19;
+
+// Smallest square by which a tube's own directions are divided: several inverse roots of it in one product are finite,
+// in whichever order a compiler takes it.
+static const float LTC_TUBE_TINY = 1e-20;
+
 // Factor on positions that leaves room for their differences, a power of two.
 static const float LTC_HEADROOM = 0.0625;
 
@@ -3027,31 +3035,31 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_3, float3 end_3, float r
     float radius_full = (abs(radius) * LTC_HEADROOM);
     const float _e17 = ltc_extent(a_full);
     const float _e18 = ltc_extent(b_full);
-    float scale = (1.0 / max(max(max(_e17, _e18), radius_full), LTC_TINY));
+    float scale = (1.0 / max(max(max(_e17, _e18), radius_full), LTC_SMALLEST));
     float3 side = (((end_3 * LTC_HEADROOM) - (start_3 * LTC_HEADROOM)) * scale);
     float3 p_a = (a_full * scale);
     float3 p_b = (b_full * scale);
     float r = (radius_full * scale);
-    const float3 _e34 = ltc_direction(side);
-    float full_length = dot(_e34, side);
+    float3 axis = (side * rsqrt(max(dot(side, side), 1e-36)));
+    float full_length = dot(axis, side);
     float a_squared = dot(p_a, p_a);
     float b_squared = dot(p_b, p_b);
-    float3 moment = cross(((b_squared < a_squared) ? p_b : p_a), _e34);
+    float3 moment = cross(((b_squared < a_squared) ? p_b : p_a), axis);
     float squared = max(dot(moment, moment), (r * r));
-    float inverse = rsqrt(max(squared, LTC_TINY));
+    float inverse = rsqrt(max(squared, 1e-30));
     bool is_inside = (dot(moment, moment) < (r * r));
     float sine_5 = (is_inside ? 1.0 : min((r * inverse), 1.0));
     float3 across_7 = (moment * inverse);
     float nearer = ((caps & ltc_use_caps) ? 0.0 : (0.7853982 * sine_5));
-    float3 moved = (cross(_e34, moment) * nearer);
-    float3 upright = (surface.normal - (_e34 * dot(surface.normal, _e34)));
+    float3 moved = (cross(axis, moment) * nearer);
+    float3 upright = (surface.normal - (axis * dot(surface.normal, axis)));
     float hidden = (is_inside ? max((1.0 - dot(across_7, across_7)), 0.0) : 0.0);
     float3 slope = ((across_7 * dot(surface.normal, across_7)) + (upright * hidden));
-    const float _e85 = ltc_root(max(dot(surface.normal, slope), dot(slope, slope)));
-    float rise = (r * _e85);
+    const float _e89 = ltc_root(max(dot(surface.normal, slope), dot(slope, slope)));
+    float rise = (r * _e89);
     float highest = max(dot(surface.normal, (p_a - moved)), dot(surface.normal, (p_b - moved)));
-    const float _e94 = ltc_tube_share(highest, rise);
-    float3 lift = (slope * (((1.0 - _e94) * r) / max(_e85, 1e-15)));
+    const float _e98 = ltc_tube_share(highest, rise);
+    float3 lift = (slope * (((1.0 - _e98) * r) / max(_e89, 1e-15)));
     float3 q_a = ((p_a - moved) + lift);
     float3 q_b = ((p_b - moved) + lift);
     float a_height = dot(surface.normal, q_a);
@@ -3063,10 +3071,10 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_3, float3 end_3, float r
     tube.remaining_length = (full_length * max(((1.0 - a_part) - b_part), 0.0));
     tube.end = (q_b - (left * b_part));
     tube.axis_distance = ((squared * inverse) * (1.0 - nearer));
-    tube.axis = _e34;
+    tube.axis = axis;
     tube.sine = sine_5;
     tube.across = across_7;
-    tube.share = ((max(a_height, b_height) > 0.0) ? _e94 : 0.0);
+    tube.share = ((max(a_height, b_height) > 0.0) ? _e98 : 0.0);
     tube.start_cap = (0.0).xxx;
     tube.start_weight = 0.0;
     tube.end_cap = (0.0).xxx;
@@ -3078,18 +3086,18 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_3, float3 end_3, float r
         float farther = ((max(b_squared, (r * r)) * b_inverse) - (max(a_squared, (r * r)) * a_inverse));
         float turned = (sine_5 * clamp((farther / max(full_length, LTC_TINY)), -1.0, 1.0));
         float reach = min(r, full_length);
-        const float4 _e189 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
-        const float4 _e191 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
-        tube.start_cap = _e189.xyz;
-        tube.start_weight = _e189.w;
-        tube.end_cap = _e191.xyz;
-        tube.end_weight = _e191.w;
-        float _e201 = tube.share;
-        tube.share = (_e201 * max((1.0 - (turned * turned)), 0.0));
+        const float4 _e193 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(axis), r, reach, turned);
+        const float4 _e195 = ltc_tube_cap_begin(surface, p_b, b_inverse, axis, r, reach, -(turned));
+        tube.start_cap = _e193.xyz;
+        tube.start_weight = _e193.w;
+        tube.end_cap = _e195.xyz;
+        tube.end_weight = _e195.w;
+        float _e205 = tube.share;
+        tube.share = (_e205 * max((1.0 - (turned * turned)), 0.0));
     }
 #endif
-    LtcTube _e208 = tube;
-    const LtcTube ltctube = _e208;
+    LtcTube _e212 = tube;
+    const LtcTube ltctube = _e212;
     return ltctube;
 }
 #endif
@@ -3127,11 +3135,11 @@ float3 ltc_tube_cap(LtcLobe lobe, float3 cap, float weight)
     float squared = dot(cap, cap);
     float inverse = rsqrt(max(dot(_e3, _e3), LTC_TINY));
     const float _e9 = ltc_root(squared);
-    float narrowed = (_e9 * inverse);
-    const float3 _e11 = ltc_transform_normal(lobe, cap);
-    float area = (((max(dot(_e11, _e3), 0.0) * narrowed) * narrowed) * narrowed);
-    float form_factor = ((weight * area) / max(((1.0 - squared) + area), LTC_TINY));
-    return (_e3 * ((_e3.z > 0.0) ? (form_factor * inverse) : 0.0));
+    float narrowed = min((_e9 * inverse), 1000000000.0);
+    const float3 _e13 = ltc_transform_normal(lobe, cap);
+    float area = min((((max(dot(_e13, _e3), 0.0) * narrowed) * narrowed) * narrowed), 1e30);
+    float covered = min((area / max(((1.0 - squared) + area), LTC_TINY)), 1.0);
+    return (_e3 * ((_e3.z > 0.0) ? ((weight * covered) * inverse) : 0.0));
 }
 #endif
 
@@ -3154,12 +3162,12 @@ float3 ltc_tube_lobe(LtcTube tube, LtcLobe lobe)
     const float3 _e5 = ltc_transform_normal(lobe, tube.axis);
     float volume = max(dot(_e5, _e3), 0.0);
     float stretch_squared = dot(_e3, _e3);
-    float stretch_inverse = rsqrt(max(stretch_squared, LTC_TINY));
+    float stretch_inverse = rsqrt(max(stretch_squared, LTC_TUBE_TINY));
     float stretch = (stretch_squared * stretch_inverse);
     const float3 _e15 = ltc_transform_normal(lobe, tube.across);
     float hidden = ((tube.sine >= 1.0) ? max((1.0 - dot(tube.across, tube.across)), 0.0) : 0.0);
     float squared = (dot(_e15, _e15) + ((hidden * volume) * stretch));
-    float inverse = rsqrt(max(squared, LTC_TINY));
+    float inverse = rsqrt(max(squared, LTC_TUBE_TINY));
     float3 normal = (_e15 * inverse);
     float3 toward = (cross(_e3, _e15) * (inverse * stretch_inverse));
     float sine_6 = (tube.sine * tube.share);
@@ -3174,8 +3182,8 @@ float3 ltc_tube_lobe(LtcTube tube, LtcLobe lobe)
     float right_depth = (depth + slope);
     float left_squared = ((left_depth * left_depth) + (width * width));
     float right_squared = ((right_depth * right_depth) + (width * width));
-    float left_inverse = rsqrt(max(left_squared, LTC_TINY));
-    float right_inverse = rsqrt(max(right_squared, LTC_TINY));
+    float left_inverse = rsqrt(max(left_squared, LTC_TUBE_TINY));
+    float right_inverse = rsqrt(max(right_squared, LTC_TUBE_TINY));
     float left_cosine = (left_depth * left_inverse);
     float right_cosine = (right_depth * right_inverse);
     float cosines = (left_cosine + right_cosine);
@@ -3188,7 +3196,7 @@ float3 ltc_tube_lobe(LtcTube tube, LtcLobe lobe)
     float foot_width = (-(chord_depth) * chord_inverse);
     float3 foot = ((toward * foot_depth) + (normal * foot_width));
     float lengths = ((left_squared * left_inverse) + (right_squared * right_inverse));
-    float shift = (((-4.0 * full_depth) * slope) / max((lengths * lengths), LTC_TINY));
+    float shift = (((-4.0 * full_depth) * slope) / max((lengths * lengths), 1e-16));
     float line_distance = (tube.axis_distance * max(((foot_depth * (full_depth + (slope * shift))) + ((foot_width * width) * shift)), 0.0));
     float3 moved = (side * (tube.axis_distance * shift));
     const float3 _e126 = ltc_transform(lobe, tube.start);
@@ -4277,7 +4285,7 @@ LtcSphere ltc_sphere_begin(LtcSurface surface, float3 centre_4, float radius)
     float3 away_far = ((centre_4 * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
     float radius_far = (abs(radius) * LTC_HEADROOM);
     const float _e12 = ltc_extent(away_far);
-    float scale = (1.0 / max(max(_e12, radius_far), LTC_TINY));
+    float scale = (1.0 / max(max(_e12, radius_far), LTC_SMALLEST));
     float3 away = (away_far * scale);
     float ball = (radius_far * scale);
     float square = dot(away, away);

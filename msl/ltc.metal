@@ -662,6 +662,14 @@ constant float LTC_MEAN_SHIFT = 0.5;
 // Smallest length by which anything is divided; a reciprocal of it is still finite.
 constant float LTC_TINY = 0.0000000000000000000000000000000000001;
 
+// Extent of a sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
+// reciprocal of it times an inverse root of LTC_TINY is finite, in whichever order a compiler takes a product.
+constant float LTC_SMALLEST = 0.0000000000000000001;
+
+// Smallest square by which a tube's own directions are divided: several inverse roots of it in one product are finite,
+// in whichever order a compiler takes it.
+constant float LTC_TUBE_TINY = 0.00000000000000000001;
+
 // Factor on positions that leaves room for their differences, a power of two.
 constant float LTC_HEADROOM = 0.0625;
 
@@ -3260,31 +3268,31 @@ LtcTube ltc_tube_begin(
     float radius_full = metal::abs(radius) * LTC_HEADROOM;
     float _e17 = ltc_extent(a_full);
     float _e18 = ltc_extent(b_full);
-    float scale = 1.0 / metal::max(metal::max(metal::max(_e17, _e18), radius_full), LTC_TINY);
+    float scale = 1.0 / metal::max(metal::max(metal::max(_e17, _e18), radius_full), LTC_SMALLEST);
     metal::float3 side = ((end_3 * LTC_HEADROOM) - (start_3 * LTC_HEADROOM)) * scale;
     metal::float3 p_a = a_full * scale;
     metal::float3 p_b = b_full * scale;
     float r = radius_full * scale;
-    metal::float3 _e34 = ltc_direction(side);
-    float full_length = metal::dot(_e34, side);
+    metal::float3 axis = side * metal::rsqrt(metal::max(metal::dot(side, side), 0.000000000000000000000000000000000001));
+    float full_length = metal::dot(axis, side);
     float a_squared = metal::dot(p_a, p_a);
     float b_squared = metal::dot(p_b, p_b);
-    metal::float3 moment = metal::cross((b_squared < a_squared) ? p_b : p_a, _e34);
+    metal::float3 moment = metal::cross((b_squared < a_squared) ? p_b : p_a, axis);
     float squared = metal::max(metal::dot(moment, moment), r * r);
-    float inverse = metal::rsqrt(metal::max(squared, LTC_TINY));
+    float inverse = metal::rsqrt(metal::max(squared, 0.000000000000000000000000000001));
     bool is_inside = metal::dot(moment, moment) < (r * r);
     float sine_5 = is_inside ? 1.0 : metal::min(r * inverse, 1.0);
     metal::float3 across_7 = moment * inverse;
     float nearer = (caps & ltc_use_caps) ? 0.0 : (0.7853982 * sine_5);
-    metal::float3 moved = metal::cross(_e34, moment) * nearer;
-    metal::float3 upright = surface.normal - (_e34 * metal::dot(surface.normal, _e34));
+    metal::float3 moved = metal::cross(axis, moment) * nearer;
+    metal::float3 upright = surface.normal - (axis * metal::dot(surface.normal, axis));
     float hidden = is_inside ? metal::max(1.0 - metal::dot(across_7, across_7), 0.0) : 0.0;
     metal::float3 slope = (across_7 * metal::dot(surface.normal, across_7)) + (upright * hidden);
-    float _e85 = ltc_root(metal::max(metal::dot(surface.normal, slope), metal::dot(slope, slope)));
-    float rise = r * _e85;
+    float _e89 = ltc_root(metal::max(metal::dot(surface.normal, slope), metal::dot(slope, slope)));
+    float rise = r * _e89;
     float highest = metal::max(metal::dot(surface.normal, p_a - moved), metal::dot(surface.normal, p_b - moved));
-    float _e94 = ltc_tube_share(highest, rise);
-    metal::float3 lift = slope * (((1.0 - _e94) * r) / metal::max(_e85, 0.000000000000001));
+    float _e98 = ltc_tube_share(highest, rise);
+    metal::float3 lift = slope * (((1.0 - _e98) * r) / metal::max(_e89, 0.000000000000001));
     metal::float3 q_a = (p_a - moved) + lift;
     metal::float3 q_b = (p_b - moved) + lift;
     float a_height = metal::dot(surface.normal, q_a);
@@ -3296,10 +3304,10 @@ LtcTube ltc_tube_begin(
     tube.remaining_length = full_length * metal::max((1.0 - a_part) - b_part, 0.0);
     tube.end = q_b - (left * b_part);
     tube.axis_distance = (squared * inverse) * (1.0 - nearer);
-    tube.axis = _e34;
+    tube.axis = axis;
     tube.sine = sine_5;
     tube.across = across_7;
-    tube.share = (metal::max(a_height, b_height) > 0.0) ? _e94 : 0.0;
+    tube.share = (metal::max(a_height, b_height) > 0.0) ? _e98 : 0.0;
     tube.start_cap = metal::float3(0.0);
     tube.start_weight = 0.0;
     tube.end_cap = metal::float3(0.0);
@@ -3311,18 +3319,18 @@ LtcTube ltc_tube_begin(
         float farther = (metal::max(b_squared, r * r) * b_inverse) - (metal::max(a_squared, r * r) * a_inverse);
         float turned = sine_5 * metal::clamp(farther / metal::max(full_length, LTC_TINY), -1.0, 1.0);
         float reach = metal::min(r, full_length);
-        metal::float4 _e189 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(_e34), r, reach, turned);
-        metal::float4 _e191 = ltc_tube_cap_begin(surface, p_b, b_inverse, _e34, r, reach, -(turned));
-        tube.start_cap = _e189.xyz;
-        tube.start_weight = _e189.w;
-        tube.end_cap = _e191.xyz;
-        tube.end_weight = _e191.w;
-        float _e201 = tube.share;
-        tube.share = _e201 * metal::max(1.0 - (turned * turned), 0.0);
+        metal::float4 _e193 = ltc_tube_cap_begin(surface, p_a, a_inverse, -(axis), r, reach, turned);
+        metal::float4 _e195 = ltc_tube_cap_begin(surface, p_b, b_inverse, axis, r, reach, -(turned));
+        tube.start_cap = _e193.xyz;
+        tube.start_weight = _e193.w;
+        tube.end_cap = _e195.xyz;
+        tube.end_weight = _e195.w;
+        float _e205 = tube.share;
+        tube.share = _e205 * metal::max(1.0 - (turned * turned), 0.0);
     }
 #endif
-    LtcTube _e208 = tube;
-    return _e208;
+    LtcTube _e212 = tube;
+    return _e212;
 }
 #endif
 
@@ -3363,11 +3371,11 @@ metal::float3 ltc_tube_cap(
     float squared = metal::dot(cap, cap);
     float inverse = metal::rsqrt(metal::max(metal::dot(_e3, _e3), LTC_TINY));
     float _e9 = ltc_root(squared);
-    float narrowed = _e9 * inverse;
-    metal::float3 _e11 = ltc_transform_normal(lobe, cap);
-    float area = ((metal::max(metal::dot(_e11, _e3), 0.0) * narrowed) * narrowed) * narrowed;
-    float form_factor = (weight * area) / metal::max((1.0 - squared) + area, LTC_TINY);
-    return _e3 * ((_e3.z > 0.0) ? (form_factor * inverse) : 0.0);
+    float narrowed = metal::min(_e9 * inverse, 1000000000.0);
+    metal::float3 _e13 = ltc_transform_normal(lobe, cap);
+    float area = metal::min(((metal::max(metal::dot(_e13, _e3), 0.0) * narrowed) * narrowed) * narrowed, 1000000000000000000000000000000.0);
+    float covered = metal::min(area / metal::max((1.0 - squared) + area, LTC_TINY), 1.0);
+    return _e3 * ((_e3.z > 0.0) ? ((weight * covered) * inverse) : 0.0);
 }
 #endif
 
@@ -3391,12 +3399,12 @@ metal::float3 ltc_tube_lobe(
     metal::float3 _e5 = ltc_transform_normal(lobe, tube.axis);
     float volume = metal::max(metal::dot(_e5, _e3), 0.0);
     float stretch_squared = metal::dot(_e3, _e3);
-    float stretch_inverse = metal::rsqrt(metal::max(stretch_squared, LTC_TINY));
+    float stretch_inverse = metal::rsqrt(metal::max(stretch_squared, LTC_TUBE_TINY));
     float stretch = stretch_squared * stretch_inverse;
     metal::float3 _e15 = ltc_transform_normal(lobe, tube.across);
     float hidden = (tube.sine >= 1.0) ? metal::max(1.0 - metal::dot(tube.across, tube.across), 0.0) : 0.0;
     float squared = metal::dot(_e15, _e15) + ((hidden * volume) * stretch);
-    float inverse = metal::rsqrt(metal::max(squared, LTC_TINY));
+    float inverse = metal::rsqrt(metal::max(squared, LTC_TUBE_TINY));
     metal::float3 normal = _e15 * inverse;
     metal::float3 toward = metal::cross(_e3, _e15) * (inverse * stretch_inverse);
     float sine_6 = tube.sine * tube.share;
@@ -3411,8 +3419,8 @@ metal::float3 ltc_tube_lobe(
     float right_depth = depth + slope;
     float left_squared = (left_depth * left_depth) + (width * width);
     float right_squared = (right_depth * right_depth) + (width * width);
-    float left_inverse = metal::rsqrt(metal::max(left_squared, LTC_TINY));
-    float right_inverse = metal::rsqrt(metal::max(right_squared, LTC_TINY));
+    float left_inverse = metal::rsqrt(metal::max(left_squared, LTC_TUBE_TINY));
+    float right_inverse = metal::rsqrt(metal::max(right_squared, LTC_TUBE_TINY));
     float left_cosine = left_depth * left_inverse;
     float right_cosine = right_depth * right_inverse;
     float cosines = left_cosine + right_cosine;
@@ -3425,7 +3433,7 @@ metal::float3 ltc_tube_lobe(
     float foot_width = -(chord_depth) * chord_inverse;
     metal::float3 foot = (toward * foot_depth) + (normal * foot_width);
     float lengths = (left_squared * left_inverse) + (right_squared * right_inverse);
-    float shift = ((-4.0 * full_depth) * slope) / metal::max(lengths * lengths, LTC_TINY);
+    float shift = ((-4.0 * full_depth) * slope) / metal::max(lengths * lengths, 0.0000000000000001);
     float line_distance = tube.axis_distance * metal::max((foot_depth * (full_depth + (slope * shift))) + ((foot_width * width) * shift), 0.0);
     metal::float3 moved = side * (tube.axis_distance * shift);
     metal::float3 _e126 = ltc_transform(lobe, tube.start);
@@ -4652,7 +4660,7 @@ LtcSphere ltc_sphere_begin(
     metal::float3 away_far = (centre_4 * LTC_HEADROOM) - (surface.position * LTC_HEADROOM);
     float radius_far = metal::abs(radius) * LTC_HEADROOM;
     float _e12 = ltc_extent(away_far);
-    float scale = 1.0 / metal::max(metal::max(_e12, radius_far), LTC_TINY);
+    float scale = 1.0 / metal::max(metal::max(_e12, radius_far), LTC_SMALLEST);
     metal::float3 away = away_far * scale;
     float ball = radius_far * scale;
     float square = metal::dot(away, away);

@@ -108,6 +108,14 @@ const LTC_MEAN_SHIFT: f32 = 0.5;
 /// Smallest length by which anything is divided; a reciprocal of it is still finite.
 const LTC_TINY: f32 = 1e-37;
 
+/// Extent of a sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
+/// reciprocal of it times an inverse root of LTC_TINY is finite, in whichever order a compiler takes a product.
+const LTC_SMALLEST: f32 = 1e-19;
+
+/// Smallest square by which a tube's own directions are divided: several inverse roots of it in one product are finite,
+/// in whichever order a compiler takes it.
+const LTC_TUBE_TINY: f32 = 1e-20;
+
 /// Factor on positions that leaves room for their differences, a power of two.
 const LTC_HEADROOM: f32 = 0.0625;
 
@@ -1750,19 +1758,20 @@ fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius:
     let a_full = start * LTC_HEADROOM - origin;
     let b_full = end * LTC_HEADROOM - origin;
     let radius_full = abs(radius) * LTC_HEADROOM;
-    let scale = 1.0 / max(max(max(ltc_extent(a_full), ltc_extent(b_full)), radius_full), LTC_TINY);
+    let scale = 1.0 / max(max(max(ltc_extent(a_full), ltc_extent(b_full)), radius_full), LTC_SMALLEST);
     // The difference of the ends themselves: that of the vectors to the surface has lost digits.
     let side = (end * LTC_HEADROOM - start * LTC_HEADROOM) * scale;
     let p_a = a_full * scale;
     let p_b = b_full * scale;
     let r = radius_full * scale;
-    let axis = ltc_direction(side);
+    // A tube shorter than 1e-18 of its distance has none.
+    let axis = side * inverseSqrt(max(dot(side, side), 1e-36));
     let full_length = dot(axis, side);
     let a_squared = dot(p_a, p_a);
     let b_squared = dot(p_b, p_b);
     let moment = cross(select(p_a, p_b, b_squared < a_squared), axis);
     let squared = max(dot(moment, moment), r * r);
-    let inverse = inverseSqrt(max(squared, LTC_TINY));
+    let inverse = inverseSqrt(max(squared, 1e-30));
     let is_inside = dot(moment, moment) < r * r;
     let sine = select(min(r * inverse, 1.0), 1.0, is_inside);
     let across = moment * inverse;
@@ -1839,11 +1848,12 @@ fn ltc_tube_cap(lobe: LtcLobe, cap: vec3<f32>, weight: f32) -> vec3<f32> {
     let toward = ltc_transform(lobe, cap);
     let squared = dot(cap, cap);
     let inverse = inverseSqrt(max(dot(toward, toward), LTC_TINY));
-    let narrowed = ltc_root(squared) * inverse;
+    // Bounded step by step, so that no two of the inverse roots meet in one product.
+    let narrowed = min(ltc_root(squared) * inverse, 1e9);
     // The solid angle over pi that the disk has there if it is small; it grows to no more than a half-space.
-    let area = max(dot(ltc_transform_normal(lobe, cap), toward), 0.0) * narrowed * narrowed * narrowed;
-    let form_factor = weight * area / max(1.0 - squared + area, LTC_TINY);
-    return toward * select(0.0, form_factor * inverse, toward.z > 0.0);
+    let area = min(max(dot(ltc_transform_normal(lobe, cap), toward), 0.0) * narrowed * narrowed * narrowed, 1e30);
+    let covered = min(area / max(1.0 - squared + area, LTC_TINY), 1.0);
+    return toward * select(0.0, weight * covered * inverse, toward.z > 0.0);
 }
 
 /// The vector form factor of a tube in the lobe's space, of its part above both horizons; z is not negative.
@@ -1860,13 +1870,13 @@ fn ltc_tube_lobe(tube: LtcTube, lobe: LtcLobe) -> vec3<f32> {
     let axis = ltc_transform(lobe, tube.axis);
     let volume = max(dot(ltc_transform_normal(lobe, tube.axis), axis), 0.0);
     let stretch_squared = dot(axis, axis);
-    let stretch_inverse = inverseSqrt(max(stretch_squared, LTC_TINY));
+    let stretch_inverse = inverseSqrt(max(stretch_squared, LTC_TUBE_TINY));
     let stretch = stretch_squared * stretch_inverse;
     let across = ltc_transform_normal(lobe, tube.across);
     // Exactly 0 outside the tube: a sharp lobe would magnify its rounding.
     let hidden = select(0.0, max(1.0 - dot(tube.across, tube.across), 0.0), tube.sine >= 1.0);
     let squared = dot(across, across) + hidden * volume * stretch;
-    let inverse = inverseSqrt(max(squared, LTC_TINY));
+    let inverse = inverseSqrt(max(squared, LTC_TUBE_TINY));
     let normal = across * inverse;
     let toward = cross(axis, across) * (inverse * stretch_inverse);
 
@@ -1882,8 +1892,8 @@ fn ltc_tube_lobe(tube: LtcTube, lobe: LtcLobe) -> vec3<f32> {
     let right_depth = depth + slope;
     let left_squared = left_depth * left_depth + width * width;
     let right_squared = right_depth * right_depth + width * width;
-    let left_inverse = inverseSqrt(max(left_squared, LTC_TINY));
-    let right_inverse = inverseSqrt(max(right_squared, LTC_TINY));
+    let left_inverse = inverseSqrt(max(left_squared, LTC_TUBE_TINY));
+    let right_inverse = inverseSqrt(max(right_squared, LTC_TUBE_TINY));
     let left_cosine = left_depth * left_inverse;
     let right_cosine = right_depth * right_inverse;
     // The chord between their directions. For a narrow tube the difference of the cosines has no digits.
@@ -1897,7 +1907,7 @@ fn ltc_tube_lobe(tube: LtcTube, lobe: LtcLobe) -> vec3<f32> {
     let foot_width = -chord_depth * chord_inverse;
     let foot = toward * foot_depth + normal * foot_width;
     let lengths = left_squared * left_inverse + right_squared * right_inverse;
-    let shift = -4.0 * full_depth * slope / max(lengths * lengths, LTC_TINY);
+    let shift = -4.0 * full_depth * slope / max(lengths * lengths, 1e-16);
     let line_distance = tube.axis_distance * max(foot_depth * (full_depth + slope * shift) + foot_width * width * shift, 0.0);
 
     let moved = side * (tube.axis_distance * shift);
@@ -2885,7 +2895,7 @@ fn ltc_disk(surface: LtcSurface, lobes: LtcLobes, centre: vec3<f32>, half_x: vec
 fn ltc_sphere_begin(surface: LtcSurface, centre: vec3<f32>, radius: f32) -> LtcSphere {
     let away_far = centre * LTC_HEADROOM - surface.position * LTC_HEADROOM;
     let radius_far = abs(radius) * LTC_HEADROOM;
-    let scale = 1.0 / max(max(ltc_extent(away_far), radius_far), LTC_TINY);
+    let scale = 1.0 / max(max(ltc_extent(away_far), radius_far), LTC_SMALLEST);
     let away = away_far * scale;
     let ball = radius_far * scale;
     let square = dot(away, away);

@@ -8,7 +8,8 @@ use super::quad::{OVER_TWO_PI, ltc_angle_excess};
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_all_around, ltc_lobes_value, with_form_factor};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform, ltc_transform_normal,
+    LTC_HEADROOM, LTC_SMALLEST, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_transform,
+    ltc_transform_normal,
 };
 
 /// An elliptical disk, placed over a surface: what all lobes share of the work on it.
@@ -170,7 +171,7 @@ pub fn ltc_sphere_begin<R: Real>(surface: &LtcSurface<R>, centre: R::Vec3, radiu
     let (zero, one, headroom, tiny) = (R::new(0.0), R::new(1.0), R::new(LTC_HEADROOM), R::new(LTC_TINY));
     let away = centre * headroom - surface.position * headroom;
     let reach = radius.abs() * headroom;
-    let scale = one / ltc_extent::<R>(away).max(reach).max(tiny);
+    let scale = one / ltc_extent::<R>(away).max(reach).max(R::new(LTC_SMALLEST));
     let (away, reach) = (away * scale, reach * scale);
     let square = away.dot(away);
     let inverse = square.max(tiny).inverse_sqrt();

@@ -7,6 +7,10 @@ pub const LTC_ROUGHNESS_FLOOR: f64 = 0.02;
 
 /// Smallest length by which anything is divided.
 pub const LTC_TINY: f64 = 1e-37;
+/// Extent of a sphere or tube together with its distance, times [`LTC_HEADROOM`], below which it shrinks to nothing.
+pub const LTC_SMALLEST: f64 = 1e-19;
+/// Smallest square by which a tube's own directions are divided.
+pub const LTC_TUBE_TINY: f64 = 1e-20;
 
 /// Factor on positions that leaves room for their differences.
 pub const LTC_HEADROOM: f64 = 0.0625;

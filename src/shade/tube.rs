@@ -4,8 +4,8 @@ use super::quad::ltc_angle_excess;
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent, ltc_transform,
-    ltc_transform_normal,
+    LTC_HEADROOM, LTC_SMALLEST, LTC_TINY, LTC_TUBE_TINY, LtcLobe, LtcSurface, ltc_direction, ltc_extent,
+    ltc_transform, ltc_transform_normal,
 };
 
 /// A tube as all lobes share it: relative to the surface point, scaled, and cut at the surface's horizon.
@@ -117,15 +117,15 @@ pub fn ltc_tube_begin<R: Real>(
     let b_full = end * headroom - origin;
     let radius_full = radius.abs() * headroom;
     let extent = ltc_extent::<R>(a_full).max(ltc_extent::<R>(b_full)).max(radius_full);
-    let scale = one / extent.max(tiny);
+    let scale = one / extent.max(R::new(LTC_SMALLEST));
     let side = (end * headroom - start * headroom) * scale;
     let (p_a, p_b, r) = (a_full * scale, b_full * scale, radius_full * scale);
-    let axis = ltc_direction::<R>(side);
+    let axis = side * side.dot(side).max(R::new(1e-36)).inverse_sqrt();
     let length = axis.dot(side);
     let (a_squared, b_squared) = (p_a.dot(p_a), p_b.dot(p_b));
     let moment = (if b_squared < a_squared { p_b } else { p_a }).cross(axis);
     let squared = moment.dot(moment).max(r * r);
-    let inverse = squared.max(tiny).inverse_sqrt();
+    let inverse = squared.max(R::new(1e-30)).inverse_sqrt();
     let is_inside = moment.dot(moment) < r * r;
     let sine = if is_inside { one } else { (r * inverse).min(one) };
     let across = moment * inverse;
@@ -193,26 +193,26 @@ pub fn ltc_tube_cap<R: Real>(lobe: &LtcLobe<R>, cap: R::Vec3, weight: R) -> R::V
     let toward = ltc_transform(lobe, cap);
     let squared = cap.dot(cap);
     let inverse = toward.dot(toward).max(tiny).inverse_sqrt();
-    let narrowed = ltc_root(squared) * inverse;
+    let narrowed = (ltc_root(squared) * inverse).min(R::new(1e9));
     let volume = ltc_transform_normal(lobe, cap).dot(toward).max(zero);
-    let area = volume * narrowed * narrowed * narrowed;
-    let form_factor = weight * area / (one - squared + area).max(tiny);
-    toward * if toward.z() > zero { form_factor * inverse } else { zero }
+    let area = (volume * narrowed * narrowed * narrowed).min(R::new(1e30));
+    let covered = (area / (one - squared + area).max(tiny)).min(one);
+    toward * if toward.z() > zero { weight * covered * inverse } else { zero }
 }
 
 /// The vector form factor of a tube in the lobe's space, of its part above both horizons.
 pub fn ltc_tube_lobe<R: Real>(tube: &LtcTube<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
-    let tiny: R = R::new(LTC_TINY);
+    let (tiny, least): (R, R) = (R::new(LTC_TINY), R::new(LTC_TUBE_TINY));
     let axis = ltc_transform(lobe, tube.axis);
     let volume = ltc_transform_normal(lobe, tube.axis).dot(axis).max(zero);
     let stretch_squared = axis.dot(axis);
-    let stretch_inverse = stretch_squared.max(tiny).inverse_sqrt();
+    let stretch_inverse = stretch_squared.max(least).inverse_sqrt();
     let stretch = stretch_squared * stretch_inverse;
     let across = ltc_transform_normal(lobe, tube.across);
     let hidden = if tube.sine < one { zero } else { (one - tube.across.dot(tube.across)).max(zero) };
     let squared = across.dot(across) + hidden * volume * stretch;
-    let inverse = squared.max(tiny).inverse_sqrt();
+    let inverse = squared.max(least).inverse_sqrt();
     let normal = across * inverse;
     let toward = axis.cross(across) * (inverse * stretch_inverse);
 
@@ -225,8 +225,8 @@ pub fn ltc_tube_lobe<R: Real>(tube: &LtcTube<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     let (left_depth, right_depth) = (depth - slope, depth + slope);
     let left_squared = left_depth * left_depth + width * width;
     let right_squared = right_depth * right_depth + width * width;
-    let left_inverse = left_squared.max(tiny).inverse_sqrt();
-    let right_inverse = right_squared.max(tiny).inverse_sqrt();
+    let left_inverse = left_squared.max(least).inverse_sqrt();
+    let right_inverse = right_squared.max(least).inverse_sqrt();
     let (left_cosine, right_cosine) = (left_depth * left_inverse, right_depth * right_inverse);
     let cosines = left_cosine + right_cosine;
     let narrow = width * left_inverse * right_inverse;
@@ -241,7 +241,7 @@ pub fn ltc_tube_lobe<R: Real>(tube: &LtcTube<R>, lobe: &LtcLobe<R>) -> R::Vec3 {
     let (turn_depth, turn_width) = (chord_width * chord_inverse, -chord_depth * chord_inverse);
     let foot = toward * turn_depth + normal * turn_width;
     let lengths = left_squared * left_inverse + right_squared * right_inverse;
-    let shift = R::new(-4.0) * full_depth * slope / (lengths * lengths).max(tiny);
+    let shift = R::new(-4.0) * full_depth * slope / (lengths * lengths).max(R::new(1e-16));
     let distance = tube.axis_distance
         * (turn_depth * (full_depth + slope * shift) + turn_width * width * shift).max(zero);
 
