@@ -1117,10 +1117,10 @@ fn ltc_quad_lobe(quad: LtcQuad, lobe: LtcLobe) -> vec3<f32> {
     if (!ltc_use_cheap_distance & quad.distant) {
         // The lobe's space stretches: there a distant light may be near.
         let lowest = a.z + min(min(min(b.z, c.z), min(d.z, e.z)), 0.0);
+        let highest = a.z + max(max(max(b.z, c.z), max(d.z, e.z)), 0.0);
         let size = max(max(dot(b, b), dot(c, c)), max(dot(d, d), dot(e, e)));
         distant = size < 0.0625 * dot(a, a);
         if (!ltc_use_cheap_horizon) {
-            let highest = a.z + max(max(max(b.z, c.z), max(d.z, e.z)), 0.0);
             if (distant & (highest <= 0.0)) {
                 return vec3<f32>(0.0);
             }

@@ -2093,23 +2093,23 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
         float _e49 = d_6.z;
         float _e51 = e_3.z;
         float lowest = (_e11.z + min(min(min(_e44, _e46), min(_e49, _e51)), 0.0));
-        vec3 _e57 = b_10;
-        vec3 _e58 = b_10;
-        vec3 _e60 = c_6;
-        vec3 _e61 = c_6;
-        vec3 _e64 = d_6;
-        vec3 _e65 = d_6;
-        vec3 _e67 = e_3;
-        vec3 _e68 = e_3;
-        float size = max(max(dot(_e57, _e58), dot(_e60, _e61)), max(dot(_e64, _e65), dot(_e67, _e68)));
+        float _e59 = b_10.z;
+        float _e61 = c_6.z;
+        float _e64 = d_6.z;
+        float _e66 = e_3.z;
+        float highest = (_e11.z + max(max(max(_e59, _e61), max(_e64, _e66)), 0.0));
+        vec3 _e72 = b_10;
+        vec3 _e73 = b_10;
+        vec3 _e75 = c_6;
+        vec3 _e76 = c_6;
+        vec3 _e79 = d_6;
+        vec3 _e80 = d_6;
+        vec3 _e82 = e_3;
+        vec3 _e83 = e_3;
+        float size = max(max(dot(_e72, _e73), dot(_e75, _e76)), max(dot(_e79, _e80), dot(_e82, _e83)));
         distant = (size < (0.0625 * dot(_e11, _e11)));
 #if !LTC_CHEAP_HORIZON
         if (!(ltc_use_cheap_horizon)) {
-            float _e80 = b_10.z;
-            float _e82 = c_6.z;
-            float _e85 = d_6.z;
-            float _e87 = e_3.z;
-            float highest = (_e11.z + max(max(max(_e80, _e82), max(_e85, _e87)), 0.0));
             bool _e93 = distant;
             if ((_e93 && (highest <= 0.0))) {
                 return vec3(0.0);
