@@ -13,6 +13,7 @@ mod render;
 mod report;
 mod say;
 mod select;
+mod stability;
 
 use clap::{Parser, Subcommand};
 
@@ -44,6 +45,8 @@ enum Command {
     Cost(cost::CostArguments),
     /// Measure what accuracy costs in time: every quality level and what else there is, as a page, Markdown and tables.
     Report(report::ReportArguments),
+    /// Try hard cases, where lights and surfaces lie so that arithmetic fails, on this machine's devices: a table, a page, pictures.
+    Stability(stability::StabilityArguments),
     /// Evaluate surfaces and lights given as JSON Lines.
     #[command(long_about = eval::HELP)]
     Eval(eval::EvalArguments),
@@ -64,6 +67,7 @@ fn main() {
         Command::Select(arguments) => select::select(&arguments),
         Command::Cost(arguments) => cost::cost(&arguments),
         Command::Report(arguments) => report::report(&arguments),
+        Command::Stability(arguments) => stability::stability(&arguments),
         Command::Eval(arguments) => eval::eval(&arguments),
     };
     if let Err(error) = result {

@@ -177,6 +177,27 @@ impl Panel {
     }
 }
 
+impl Panel {
+    /// The picture as the bytes of a PNG file.
+    ///
+    /// # Errors
+    ///
+    /// If the encoder refuses, as it does a picture without pixels: what it says.
+    pub fn png(&self) -> Result<Vec<u8>, String> {
+        let mut file = std::io::Cursor::new(Vec::new());
+        image::write_buffer_with_format(
+            &mut file,
+            &self.pixels.concat(),
+            self.width,
+            self.height,
+            image::ExtendedColorType::Rgb8,
+            image::ImageFormat::Png,
+        )
+        .map_err(|error| error.to_string())?;
+        Ok(file.into_inner())
+    }
+}
+
 /// Whether [`write_png`] could write to this name: said before a long computation, it saves the time.
 ///
 /// # Errors
@@ -203,15 +224,6 @@ pub fn check_png_path(path: &Path) -> Result<(), ImageError> {
 pub fn write_png(path: &Path, panel: &Panel) -> Result<(), ImageError> {
     check_png_path(path)?;
     let refused = |reason: String| ImageError::Refused { path: path.to_owned(), reason };
-    let mut file = std::io::Cursor::new(Vec::new());
-    image::write_buffer_with_format(
-        &mut file,
-        &panel.pixels.concat(),
-        panel.width,
-        panel.height,
-        image::ExtendedColorType::Rgb8,
-        image::ImageFormat::Png,
-    )
-    .map_err(|error| refused(error.to_string()))?;
-    output::write_file(path, &file.into_inner()).map_err(|error| refused(error.to_string()))
+    let bytes = panel.png().map_err(refused)?;
+    output::write_file(path, &bytes).map_err(|error| refused(error.to_string()))
 }

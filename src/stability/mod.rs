@@ -8,15 +8,27 @@ mod both;
 mod case;
 mod check;
 mod families;
+mod known;
+mod level;
+mod line;
+pub mod page;
 mod random;
+mod rows;
+mod run;
 mod stacks;
+mod text;
 
 pub use both::{BothError, NOT_FINITE, Shaded, Spread, scene_by_both, sheet};
 pub use case::{Bound, Case, Shape, batch};
 pub use check::{Outcome, offences, outcomes};
 pub use families::{CATALOGUE, Family, cases, cases_of, perpendicular};
+pub use known::{KNOWN, KnownCase};
+pub use level::{FACTORS, FAST, FAST_FAMILIES, TERM, VANISHING, at_level, conforming_bound};
 pub use random::{Random, neighbour};
+pub use rows::{Bounds, FamilyRow, Worst};
+pub use run::Run;
 pub use stacks::{
     Differences, Inputs, PARTS, Stack, StackRow, adapter_rows, driver_name, driver_version, effects, program,
     table,
 };
+pub use text::{beyond_lines, summary, table_text};

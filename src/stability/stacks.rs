@@ -4,7 +4,7 @@
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Bound, Case, Outcome, Shape, batch, cases, offences, outcomes};
+use super::{Bound, Case, Outcome, Shape, at_level, batch, cases, offences, outcomes};
 use crate::device::{Batch, Device, DeviceError, Program};
 use crate::effects::{Effects, EffectsError, Quality, wgsl};
 use crate::table::Table;
@@ -13,8 +13,8 @@ use crate::table::Table;
 pub const PARTS: [&str; 3] = ["form factor", "specular", "Schlick part"];
 
 /// How far the values of one part are from exact arithmetic, over the cases that have a bound in numbers: absolute
-/// differences of numbers between 0 and 1. At the level `fast` the catalogue's bounds hold for its integral only; cases are the
-/// same there, and exact arithmetic is that of its own closed forms.
+/// differences of numbers between 0 and 1. The cases are those that the catalogue bounds at every level; at `fast`, exact arithmetic
+/// is that of its own closed forms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Differences {
     /// Half of the cases are closer.
@@ -123,11 +123,16 @@ impl Inputs {
         }
         if effects.is_fast() {
             // The catalogue bounds the distance from the integral, which this level's closed forms are not.
-            cases.iter_mut().for_each(physical);
-            exact = cases.iter().map(|case| case.exact(&table, effects)).collect();
+            exact = cases.iter().map(|case| case.twin::<f64>(&table, effects)).collect();
+            cases.iter_mut().zip(&exact).for_each(|(case, exact)| *case = at_level(level, case, exact[1]));
         }
         let batch = batch(&cases);
         Self { level, effects, table, cases, batch, exact, bounded }
+    }
+
+    /// The values of exact arithmetic, a case each.
+    pub fn exact(&self) -> &[[f64; 3]] {
+        &self.exact
     }
 
     /// Each family's worst.

@@ -1,6 +1,5 @@
 //! The include keeps its promises on every device that conforms to WGSL, the worst included.
 
-mod bound;
 mod controls;
 mod evaluation;
 mod summary;
@@ -13,10 +12,9 @@ use softbox::WGSL_INCLUDE;
 use softbox::effects::{Effects, Quality};
 use softbox::interpret::{Filter, Freedom, Outcome, Policy};
 use softbox::shade::LobeSum;
-use softbox::stability::{Bound, Case, Shape};
+use softbox::stability::{Bound, Case, Shape, conforming_bound};
 use softbox::table::Table;
 
-use bound::conforming_bound;
 use summary::Summary;
 
 /// A part of each family, spread over it.

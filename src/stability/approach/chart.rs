@@ -102,10 +102,13 @@ pub fn charts(curves: &[Curve]) -> Vec<(String, String)> {
         (!of.is_empty()).then(|| small_chart(&of))
     };
     let shown: Vec<SmallChart> = OVERVIEW.iter().filter_map(|name| chart(name)).collect();
-    let title =
-        "Rounding error in f32 on the way to hard cases, each method against itself in exact arithmetic";
+    let title = format!(
+        "Rounding error in f32 on {} of {} ways to hard cases, each method against itself in exact arithmetic",
+        shown.len(),
+        names.len()
+    );
     let mut documents =
-        vec![(OVERVIEW_NAME.to_owned(), small_charts(title, &shown, &series(), 4, [225.0, 196.0]))];
+        vec![(OVERVIEW_NAME.to_owned(), small_charts(&title, &shown, &series(), 4, [225.0, 196.0]))];
     documents.extend(names.iter().filter_map(|name| {
         let chart = chart(name)?;
         Some(((*name).to_owned(), small_charts(&chart.title.clone(), &[chart], &series(), 1, [480.0, 320.0])))
@@ -141,4 +144,29 @@ pub fn table(curves: &[Curve]) -> String {
         }
     }
     String::from_utf8(writer.into_inner().expect("memory takes it")).expect("all of it is text")
+}
+
+/// The same as JSON Lines, an object for each row: what is not finite has no error that could be written.
+///
+/// # Errors
+///
+/// If a row cannot be written: what is said.
+pub fn lines(curves: &[Curve]) -> Result<String, String> {
+    let rows = curves.iter().flat_map(|curve| curve.steps.iter().map(move |step| (curve, step)));
+    let line = |(curve, step): (&Curve, &super::Step)| {
+        let approach = &curve.approach;
+        let row = serde_json::json!({
+            "approach": approach.name,
+            "part": format!("{:?}", approach.part).to_lowercase(),
+            "measure": format!("{:?}", approach.measure).to_lowercase(),
+            "method": curve.method.label(),
+            "parameter": step.parameter,
+            "error": step.error,
+            "bound": curve.method.is_ours().then_some(step.bound),
+            "values": step.count,
+            "not_finite": step.not_finite,
+        });
+        serde_json::to_string(&row).map(|line| line + "\n").map_err(|error| error.to_string())
+    };
+    rows.map(line).collect()
 }

@@ -14,7 +14,7 @@ mod published;
 mod round;
 mod setting;
 
-pub use chart::{OVERVIEW_NAME, charts, table};
+pub use chart::{OVERVIEW_NAME, charts, lines, table};
 pub use curve::{Curve, Method, Parts, Reading, Step, Tables, VARIANTS, curves, parameters, read};
 pub use list::{Approach, Measure, Part, approaches};
 pub use published::EdgeForm;

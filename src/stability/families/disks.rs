@@ -164,6 +164,10 @@ impl Builder {
             let local = [toward - rim, x, y * aspect];
             let bound = Bound::Absolute(1e-6 + 6e-7 / gap);
             self.disk("disk, the rim passes close by", &axes, local, bound, 1.6e-5 / gap);
+            // Rounding of point and disk turns the rim by 2e-7 over its distance, and a lobe sees that in units of its width.
+            let last = self.cases.len() - 1;
+            let alpha = f64::from(self.cases[last].roughness.clamp(0.02, 1.0)).powi(2);
+            self.cases[last].specular_bound += 2e-7 / (gap * alpha);
         }
     }
 

@@ -1,8 +1,7 @@
-//! What holds on every device that conforms.
+//! What each quality level promises of a case: on a device that rounds to nearest, and on every device that conforms to WGSL.
 
-use softbox::effects::Quality;
-
-use softbox::stability::{Bound, Case, Shape};
+use super::{Bound, Case, Shape};
+use crate::effects::Quality;
 
 /// By how much the bounds of a device that rounds to nearest are widened: for the form factor, and for specular light.
 ///
@@ -20,9 +19,10 @@ pub const TERM: f64 = 4.768_371_582e-7 / core::f64::consts::TAU;
 /// Largest coordinate that a device may take for zero: scaled by 1/16, as the include does at first, it is subnormal.
 pub const VANISHING: f32 = 16.0 * f32::MIN_POSITIVE;
 
-/// The same for quads and polygons at the level [`Quality::Fast`], absolute and measured, in [`FAST_FAMILIES`]. Elsewhere that
-/// level promises no more than physical values: a flat light is its four directions there, so one that touches the surface or
-/// is much larger than its distance loses the digits of that distance, on plain devices too.
+/// How far quads and polygons may be off at the level [`Quality::Fast`], in [`FAST_FAMILIES`]: the form factor, and specular light
+/// beside what the catalogue allows it; absolute, and measured on the worst device that conforms. Elsewhere that level promises no
+/// more of them than physical values: a flat light is its four directions there, so one that touches the surface or is much larger
+/// than its distance loses the digits of that distance, on plain devices too.
 pub const FAST: [f64; 2] = [1e-3, 2e-3];
 
 /// The families of flat lights in which the level [`Quality::Fast`] is bounded.
@@ -33,6 +33,40 @@ pub const FAST_FAMILIES: [&str; 5] = [
     "distant, on a turned horizon",
     "ceiling",
 ];
+
+/// Rounding of view and normal turns the azimuth of a view by up to this over the sine of its angle to the normal.
+const AZIMUTH: f64 = 1e-7;
+
+/// The most that a turn of the lobe of [`Quality::Fast`] about the normal changes of specular light, as a share of it, where the
+/// view is close to the normal: its closed form is not quite round there.
+const UNROUND: f64 = 0.05;
+
+/// Light below this has squares that are subnormal, which a device may take for zero; Schlick's part then loses its direction.
+const FAINT: f64 = 1e-20;
+
+/// A case of the catalogue with the bounds that hold for it at a level, on a device that rounds to nearest and keeps the order of
+/// the text; `specular` is its specular light by exact arithmetic at that level.
+///
+/// The exact levels share the bounds of the catalogue. At [`Quality::Fast`] exact arithmetic is that of its own closed forms. Quads
+/// and polygons are bounded by [`FAST`], in [`FAST_FAMILIES`] alone. Disks, spheres and tubes are evaluated as elsewhere. Its lobe
+/// shows the azimuth's rounding close to the normal.
+pub fn at_level(quality: Quality, case: &Case, specular: f64) -> Case {
+    let mut case = case.clone();
+    if quality != Quality::Fast {
+        return case;
+    }
+    case.form_factor = None;
+    case.specular_bound += (AZIMUTH / case.tilt().max(1e-30)).min(UNROUND) * specular + FAINT;
+    if !case.shape.vertices().is_empty() {
+        let bounded = FAST_FAMILIES.contains(&case.family) && case.bound != Bound::Physical;
+        let [form_factor, specular] = FAST;
+        (case.bound, case.specular_bound) = match bounded {
+            true => (Bound::Absolute(form_factor), specular + case.specular_bound),
+            false => (Bound::Physical, f64::INFINITY),
+        };
+    }
+    case
+}
 
 /// How far the form factor and the specular value may be from exact arithmetic on the numbers that the device is given, texels
 /// included; the Schlick part may be twice as far as the specular value. Nothing for inputs of which no more is promised than
