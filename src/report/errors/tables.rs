@@ -191,10 +191,15 @@ fn dds(bytes: &[u8]) -> Result<Vec<u8>, String> {
     if file.get_dxgi_format() != Some(ddsfile::DxgiFormat::R16G16B16A16_Float) {
         return Err("its texels are not R16G16B16A16_FLOAT".to_owned());
     }
-    if file.get_width() != file.get_height() || file.get_num_array_layers() != 2 {
+    // The number as the file has it: `get_num_array_layers` multiplies it for cubes, and overflows.
+    let header = file.header10.as_ref();
+    if header.is_some_and(|header| header.misc_flag.contains(ddsfile::MiscFlag::TEXTURECUBE)) {
+        return Err("it is a cube and not two layers".to_owned());
+    }
+    let layers = header.map_or(1, |header| header.array_size);
+    if file.get_width() != file.get_height() || layers != 2 {
         return Err(format!(
-            "it has {} layers of {} × {} texels and not two square ones",
-            file.get_num_array_layers(),
+            "it has {layers} layers of {} × {} texels and not two square ones",
             file.get_width(),
             file.get_height()
         ));
