@@ -12,7 +12,8 @@ fn number(value: f32) -> Value {
 }
 
 impl Case {
-    /// The case as a line that `softbox eval` reads. Each number is the shortest decimal that is the same in single precision.
+    /// The case as a line that `softbox eval` reads, unless the light is one that it refuses, such as a disk without an axis. Each
+    /// number is the shortest decimal that is the same in single precision.
     pub fn line(&self) -> String {
         let v = |v: glam::Vec3| Value::from(v.to_array().map(number).to_vec());
         let all = |vertices: &[glam::Vec3]| -> Value { vertices.iter().map(|vertex| v(*vertex)).collect() };
@@ -48,7 +49,9 @@ mod tests {
     #[test]
     fn lines_read_back_to_the_same_bits() {
         let mut read = 0;
-        for case in cases(1).iter().filter(|case| case.bound != Bound::Physical) {
+        // Those with a bound in numbers, which is what the page prints: lights without area are refused.
+        let bounded = |case: &&super::Case| matches!(case.bound, Bound::Absolute(_) | Bound::Relative(_));
+        for case in cases(1).iter().filter(bounded) {
             let line = case.line();
             let back =
                 Read::parse(line.as_bytes(), Precision::Single, &mut |_| Err("no pictures".to_owned()));

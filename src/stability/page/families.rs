@@ -71,7 +71,7 @@ fn family_table(rows: &[&FamilyRow]) -> String {
 /// The inputs that came closest to their bounds, to be tried again.
 fn details(inputs: &Inputs, run: &Run, rows: &[&FamilyRow]) -> String {
     let mut text = "\n<details><summary>The inputs that came closest to their bounds</summary>\n\n\
-                    Lines for `softbox eval`; every number is exact in single precision.\n\n"
+                    Lines for `softbox eval`, which takes convex quads by `ltc_quad`; every number is exact in single precision.\n\n"
         .to_owned();
     for row in rows {
         let parts = [(PARTS[0], row.worst), (PARTS[1], row.specular_worst)];
