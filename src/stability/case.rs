@@ -24,7 +24,7 @@ pub enum Bound {
 }
 
 /// A light in single precision, by the function that evaluates it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub enum Shape {
     /// By `ltc_quad`: the corners of a convex quadrilateral.
     Quad {

@@ -13,6 +13,7 @@ mod level;
 mod line;
 pub mod page;
 mod random;
+pub mod relations;
 mod rows;
 mod run;
 mod stacks;

@@ -25,6 +25,7 @@ pub struct Family {
 }
 
 pub use catalogue::CATALOGUE;
+pub(super) use tubes::bounds as tube_bounds;
 
 type Axes = [DVec3; 3];
 

@@ -12,7 +12,7 @@ use crate::stability::{Bound, Case, Shape};
 /// Both grow with the angles under which the tube's width and length are seen, and with the ratio of its farther end's
 /// distance to its own, for coordinates have digits to so much. Specular light is 1 / α as sensitive, and
 /// 1 / cos θ times that seen at a grazing angle.
-fn bounds(case: &Case) -> (f64, f64) {
+pub(in crate::stability) fn bounds(case: &Case) -> (f64, f64) {
     let Shape::Tube { start, end, radius, caps } = case.shape else { return (0.0, f64::INFINITY) };
     let radius = f64::from(radius);
     let [start, end] = [start, end].map(|v| (v - case.position).as_dvec3());
