@@ -60,7 +60,7 @@ pub struct Posed {
 pub enum Lobes {
     /// Those of the level's table.
     Level,
-    /// The cosine itself, see [`examine::identity`].
+    /// The cosine itself.
     Identity,
 }
 
