@@ -1330,6 +1330,16 @@ float ltc_angle_excess(
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
+// The shorter of two vectors.
+metal::float3 ltc_shorter(
+    metal::float3 a,
+    metal::float3 b
+) {
+    return (metal::dot(b, b) < metal::dot(a, a)) ? b : a;
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
 // The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
 // two has the fewest digits to lose.
 metal::float3 ltc_edge_normal(
@@ -1337,7 +1347,8 @@ metal::float3 ltc_edge_normal(
     metal::float3 b,
     metal::float3 side
 ) {
-    return metal::cross((metal::dot(b, b) < metal::dot(a, a)) ? b : a, side);
+    metal::float3 _e3 = ltc_shorter(a, b);
+    return metal::cross(_e3, side);
 }
 #endif
 
@@ -1467,20 +1478,28 @@ float ltc_above_tolerance(
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
-// it passes the surface point closely. `normal` has the direction of above x below.
+// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that
+// where it passes the surface point closely. `normal` has the direction of above x below; `exact` tells that it does not come
+// from these points and their rounding.
 metal::float3 ltc_crossing(
     metal::float3 above,
     metal::float3 below,
-    metal::float3 normal
+    metal::float3 normal,
+    bool exact
 ) {
     float high = metal::max(above.z, 0.0);
     float t = high / metal::max(high - metal::min(below.z, 0.0), LTC_TINY);
     metal::float3 between = metal::float3(above.xy + ((below.xy - above.xy) * t), 0.0);
+    float above_square = metal::dot(above, above);
+    float below_square = metal::dot(below, below);
+    bool cancels = metal::dot(between, between) < (0.000001 * metal::max(above_square, below_square));
     metal::float3 turned = metal::float3(normal.y, -(normal.x), 0.0);
-    bool cancels = metal::dot(between, between) < (0.000001 * metal::max(metal::dot(above, above), metal::dot(below, below)));
-    bool tilted = metal::dot(turned, turned) > (0.001 * metal::dot(normal, normal));
-    return (cancels & tilted) ? turned : between;
+    float turned_square = metal::dot(turned, turned);
+    float normal_square = metal::dot(normal, normal);
+    float normal_inverse = metal::rsqrt(metal::max(normal_square, LTC_TINY));
+    float rounding = exact ? normal_inverse : (metal::rsqrt(metal::max(above_square, LTC_TINY)) * metal::rsqrt(metal::max(below_square, LTC_TINY)));
+    bool tilted = (turned_square * rounding) > ((0.0000002 * normal_square) * normal_inverse);
+    return (cancels & tilted) ? (turned * metal::rsqrt(metal::max(turned_square, LTC_TINY))) : between;
 }
 #endif
 
@@ -1940,15 +1959,15 @@ metal::float3 ltc_fast_unit(
 // A quad light as its four directions, in the place of the vertices, in the surface's frame.
 LtcQuad ltc_fast_quad(
     LtcSurface surface,
-    metal::float3 a_8,
-    metal::float3 b_7,
+    metal::float3 a_9,
+    metal::float3 b_8,
     metal::float3 c_3,
     metal::float3 d_3,
     bool two_sided_2
 ) {
     LtcQuad quad_ = {};
-    float _e6 = ltc_extent(a_8);
-    float _e7 = ltc_extent(b_7);
+    float _e6 = ltc_extent(a_9);
+    float _e7 = ltc_extent(b_8);
     float _e9 = ltc_extent(c_3);
     float _e10 = ltc_extent(d_3);
     float reach = metal::max(metal::max(_e6, _e7), metal::max(_e9, _e10));
@@ -1956,10 +1975,10 @@ LtcQuad ltc_fast_quad(
     float extent = metal::max(metal::max(reach, _e14), 0.000000000000000000000000000001);
     float scale = as_type<float>(2139095040u - (as_type<uint>(extent) & 2139095040u));
     metal::float3 origin = surface.position * scale;
-    metal::float3 _e30 = ltc_fast_unit((a_8 * scale) - origin);
+    metal::float3 _e30 = ltc_fast_unit((a_9 * scale) - origin);
     metal::float3 _e31 = ltc_in_frame(surface, _e30);
     quad_.a = _e31;
-    metal::float3 _e35 = ltc_fast_unit((b_7 * scale) - origin);
+    metal::float3 _e35 = ltc_fast_unit((b_8 * scale) - origin);
     metal::float3 _e36 = ltc_in_frame(surface, _e35);
     quad_.b = _e36;
     metal::float3 _e40 = ltc_fast_unit((c_3 * scale) - origin);
@@ -1986,8 +2005,8 @@ LtcQuad ltc_fast_quad(
 // Cuts a convex quad light with the vertices `a`, `b`, `c`, `d` at the surface's horizon; see ltc_quad.
 LtcQuad ltc_quad_begin(
     LtcSurface surface,
-    metal::float3 a_9,
-    metal::float3 b_8,
+    metal::float3 a_10,
+    metal::float3 b_9,
     metal::float3 c_4,
     metal::float3 d_4,
     bool two_sided_3
@@ -2000,14 +2019,14 @@ LtcQuad ltc_quad_begin(
     metal::float4 v_e = {};
 #if LTC_CHEAP_DISTANCE && LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon & ltc_use_cheap_distance) {
-        LtcQuad _e9 = ltc_fast_quad(surface, a_9, b_8, c_4, d_4, two_sided_3);
+        LtcQuad _e9 = ltc_fast_quad(surface, a_10, b_9, c_4, d_4, two_sided_3);
         return _e9;
     }
 #endif
     metal::float3 origin = surface.position * LTC_HEADROOM;
-    metal::float3 a_far = a_9 * LTC_HEADROOM;
+    metal::float3 a_far = a_10 * LTC_HEADROOM;
     metal::float3 a_full = a_far - origin;
-    metal::float3 b_full = (b_8 * LTC_HEADROOM) - origin;
+    metal::float3 b_full = (b_9 * LTC_HEADROOM) - origin;
     metal::float3 c_full = (c_4 * LTC_HEADROOM) - origin;
     metal::float3 d_full = (d_4 * LTC_HEADROOM) - origin;
     float _e25 = ltc_extent(a_full);
@@ -2016,7 +2035,7 @@ LtcQuad ltc_quad_begin(
     float _e29 = ltc_extent(d_full);
     float extent = metal::max(metal::max(_e25, _e26), metal::max(_e28, _e29));
     float scale = 1.0 / metal::max(extent, LTC_TINY);
-    metal::float3 side_b = ((b_8 * LTC_HEADROOM) - a_far) * scale;
+    metal::float3 side_b = ((b_9 * LTC_HEADROOM) - a_far) * scale;
     metal::float3 side_c = ((c_4 * LTC_HEADROOM) - a_far) * scale;
     metal::float3 side_d = ((d_4 * LTC_HEADROOM) - a_far) * scale;
     metal::float3 p_a = a_full * scale;
@@ -2318,7 +2337,7 @@ metal::float3 ltc_quad_lobe(
     LtcQuad quad_6,
     LtcLobe lobe
 ) {
-    metal::float3 b_10 = {};
+    metal::float3 b_11 = {};
     metal::float3 c_6 = {};
     metal::float3 d_6 = {};
     metal::float3 e_3 = {};
@@ -2341,7 +2360,7 @@ metal::float3 ltc_quad_lobe(
 #endif
     metal::float3 _e11 = ltc_transform_framed(lobe, quad_6.a);
     metal::float3 _e13 = ltc_transform_framed(lobe, quad_6.b);
-    b_10 = _e13;
+    b_11 = _e13;
     metal::float3 _e16 = ltc_transform_framed(lobe, quad_6.c);
     c_6 = _e16;
     metal::float3 _e19 = ltc_transform_framed(lobe, quad_6.d);
@@ -2359,18 +2378,18 @@ metal::float3 ltc_quad_lobe(
     rim = quad_6.rim;
 #if !LTC_CHEAP_DISTANCE
     if (!(ltc_use_cheap_distance) & quad_6.distant) {
-        float _e44 = b_10.z;
+        float _e44 = b_11.z;
         float _e46 = c_6.z;
         float _e49 = d_6.z;
         float _e51 = e_3.z;
         float lowest = _e11.z + metal::min(metal::min(metal::min(_e44, _e46), metal::min(_e49, _e51)), 0.0);
-        float _e59 = b_10.z;
+        float _e59 = b_11.z;
         float _e61 = c_6.z;
         float _e64 = d_6.z;
         float _e66 = e_3.z;
         float highest = _e11.z + metal::max(metal::max(metal::max(_e59, _e61), metal::max(_e64, _e66)), 0.0);
-        metal::float3 _e72 = b_10;
-        metal::float3 _e73 = b_10;
+        metal::float3 _e72 = b_11;
+        metal::float3 _e73 = b_11;
         metal::float3 _e75 = c_6;
         metal::float3 _e76 = c_6;
         metal::float3 _e79 = d_6;
@@ -2391,8 +2410,8 @@ metal::float3 ltc_quad_lobe(
 #endif
         bool _e108 = distant;
         if (!(_e108)) {
-            metal::float3 _e110 = b_10;
-            b_10 = _e110 + _e11;
+            metal::float3 _e110 = b_11;
+            b_11 = _e110 + _e11;
             metal::float3 _e112 = c_6;
             c_6 = _e112 + _e11;
             metal::float3 _e114 = d_6;
@@ -2413,7 +2432,7 @@ metal::float3 ltc_quad_lobe(
         bool _e149 = distant;
         moved.distant = _e149;
         moved.a = _e11;
-        metal::float3 _e152 = b_10;
+        metal::float3 _e152 = b_11;
         moved.b = _e152;
         metal::float3 _e154 = c_6;
         moved.c = _e154;
@@ -2444,7 +2463,7 @@ metal::float3 ltc_quad_lobe(
     bool _e187 = distant;
 #if !LTC_CHEAP_DISTANCE
     if (!(ltc_use_cheap_distance) & _e187) {
-        metal::float3 _e189 = b_10;
+        metal::float3 _e189 = b_11;
         metal::float3 _e190 = c_6;
         metal::float3 _e191 = d_6;
         metal::float3 _e192 = e_3;
@@ -2454,7 +2473,7 @@ metal::float3 ltc_quad_lobe(
 #else
     {
 #endif
-        metal::float3 _e195 = b_10;
+        metal::float3 _e195 = b_11;
         metal::float3 _e196 = c_6;
         metal::float3 _e197 = d_6;
         metal::float3 _e198 = e_3;
@@ -2660,21 +2679,24 @@ void ltc_outline_add(
     metal::float3 a_offset = (a_far - first_far) * scale_3;
     metal::float3 b_offset = (b_far - first_far) * scale_3;
     float _e39 = outline.facing;
-    outline.facing = _e39 + metal::dot(metal::cross(a_offset, b_offset), reference_7);
+    metal::float3 _e40 = ltc_shorter(a_offset, b_offset);
+    metal::float3 _e41 = ltc_shorter(a, b);
+    metal::float3 _e42 = ltc_shorter(_e40, _e41);
+    outline.facing = _e39 + metal::dot(metal::cross(_e42, (b_far - a_far) * scale_3), reference_7);
     outline.previous = corner;
     outline.reference = reference_7;
 #if LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon) {
 #if LTC_CHEAP_DISTANCE
         if (ltc_use_cheap_distance) {
-            metal::float3 _e49 = ltc_fast_unit(a);
-            outline.start = _e49;
-            metal::float3 _e51 = ltc_fast_unit(b);
-            outline.end = _e51;
-            metal::float3 _e53 = outline.start;
-            metal::float3 _e55 = outline.end;
-            metal::float3 _e56 = ltc_fast_edge(_e53, _e55);
-            edge = _e56;
+            metal::float3 _e54 = ltc_fast_unit(a);
+            outline.start = _e54;
+            metal::float3 _e56 = ltc_fast_unit(b);
+            outline.end = _e56;
+            metal::float3 _e58 = outline.start;
+            metal::float3 _e60 = outline.end;
+            metal::float3 _e61 = ltc_fast_edge(_e58, _e60);
+            edge = _e61;
         }
 #endif
 #if !LTC_CHEAP_DISTANCE
@@ -2683,19 +2705,19 @@ void ltc_outline_add(
             outline.end = b;
             outline.start_offset = a_offset;
             outline.end_offset = b_offset;
-            metal::float3 _e65 = ltc_edge_normal(a, b, b_offset - a_offset);
-            outline.normal = _e65;
-            metal::float3 _e67 = outline.normal;
-            metal::float3 _e68 = ltc_edge_from(reference_7, a, a_offset, b, b_offset, _e67);
-            edge = _e68;
+            metal::float3 _e70 = ltc_edge_normal(a, b, b_offset - a_offset);
+            outline.normal = _e70;
+            metal::float3 _e72 = outline.normal;
+            metal::float3 _e73 = ltc_edge_from(reference_7, a, a_offset, b, b_offset, _e72);
+            edge = _e73;
         }
 #endif
-        metal::float3 _e70 = outline.sum;
-        metal::float3 _e71 = edge;
-        outline.sum = _e70 - _e71;
-        float _e74 = outline.diffuse;
+        metal::float3 _e75 = outline.sum;
         metal::float3 _e76 = edge;
-        outline.diffuse = _e74 - metal::dot(surface.normal, _e76);
+        outline.sum = _e75 - _e76;
+        float _e79 = outline.diffuse;
+        metal::float3 _e81 = edge;
+        outline.diffuse = _e79 - metal::dot(surface.normal, _e81);
         return;
     }
 #endif
@@ -2704,9 +2726,9 @@ void ltc_outline_add(
     float a_height = near ? (height + metal::dot(surface.normal, a_offset)) : metal::dot(surface.normal, a);
     float b_height = near ? (height + metal::dot(surface.normal, b_offset)) : metal::dot(surface.normal, b);
     bool a_up = outline.previous_up;
-    bool _e108 = outline.first_up;
-    metal::float3 _e110 = outline.first;
-    bool b_up = metal::all(corner == _e110) ? _e108 : (b_height > 0.0);
+    bool _e113 = outline.first_up;
+    metal::float3 _e115 = outline.first;
+    bool b_up = metal::all(corner == _e115) ? _e113 : (b_height > 0.0);
     outline.previous_up = b_up;
     outline.above = a_up | b_up;
     outline.closes = false;
@@ -2725,27 +2747,28 @@ void ltc_outline_add(
         float high = metal::max(a_up ? a_height : b_height, 0.0);
         float low = metal::min(a_up ? b_height : a_height, 0.0);
         float t = high / metal::max(high - low, LTC_TINY);
-        metal::float3 crossing = above_2 + ((below - above_2) * t);
+        metal::float3 between = above_2 + ((below - above_2) * t);
+        metal::float3 crossing = between - (surface.normal * metal::dot(surface.normal, between));
         metal::float3 crossing_offset = above_offset + ((below_offset - above_offset) * t);
-        bool _e148 = outline.crossed;
-        if (_e148) {
+        bool _e158 = outline.crossed;
+        if (_e158) {
             metal::float3 base = outline.crossing;
             metal::float3 base_offset = outline.crossing_offset;
             metal::float3 horizon_start = a_up ? crossing : base;
             metal::float3 horizon_end = a_up ? base : crossing;
             metal::float3 horizon_start_offset = a_up ? crossing_offset : base_offset;
             metal::float3 horizon_end_offset = a_up ? base_offset : crossing_offset;
-            metal::float3 _e158 = ltc_edge_normal(horizon_start, horizon_end, horizon_end_offset - horizon_start_offset);
-            metal::float3 normal_13 = surface.normal * metal::dot(surface.normal, _e158);
+            metal::float3 _e168 = ltc_edge_normal(horizon_start, horizon_end, horizon_end_offset - horizon_start_offset);
+            metal::float3 normal_13 = surface.normal * metal::dot(surface.normal, _e168);
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
             outline.horizon_normal = normal_13;
-            float _e171 = outline.diffuse;
-            metal::float3 _e173 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
-            outline.diffuse = _e171 - metal::dot(surface.normal, _e173);
+            float _e181 = outline.diffuse;
+            metal::float3 _e183 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
+            outline.diffuse = _e181 - metal::dot(surface.normal, _e183);
         } else {
             outline.crossed = true;
             outline.crossing = crossing;
@@ -2756,27 +2779,27 @@ void ltc_outline_add(
         end_1 = a_up ? crossing : b;
         end_offset = a_up ? crossing_offset : b_offset;
     }
-    metal::float3 _e184 = start_1;
-    metal::float3 _e185 = end_1;
-    metal::float3 _e186 = end_offset;
-    metal::float3 _e187 = start_offset;
-    metal::float3 _e189 = ltc_edge_normal(_e184, _e185, _e186 - _e187);
-    metal::float3 _e191 = start_1;
-    outline.start = _e191;
-    metal::float3 _e193 = end_1;
-    outline.end = _e193;
-    metal::float3 _e195 = start_offset;
-    outline.start_offset = _e195;
-    metal::float3 _e197 = end_offset;
-    outline.end_offset = _e197;
-    outline.normal = _e189;
-    float _e200 = outline.diffuse;
-    metal::float3 _e202 = start_1;
-    metal::float3 _e203 = start_offset;
-    metal::float3 _e204 = end_1;
-    metal::float3 _e205 = end_offset;
-    metal::float3 _e206 = ltc_edge_from(reference_7, _e202, _e203, _e204, _e205, _e189);
-    outline.diffuse = _e200 - metal::dot(surface.normal, _e206);
+    metal::float3 _e194 = start_1;
+    metal::float3 _e195 = end_1;
+    metal::float3 _e196 = end_offset;
+    metal::float3 _e197 = start_offset;
+    metal::float3 _e199 = ltc_edge_normal(_e194, _e195, _e196 - _e197);
+    metal::float3 _e201 = start_1;
+    outline.start = _e201;
+    metal::float3 _e203 = end_1;
+    outline.end = _e203;
+    metal::float3 _e205 = start_offset;
+    outline.start_offset = _e205;
+    metal::float3 _e207 = end_offset;
+    outline.end_offset = _e207;
+    outline.normal = _e199;
+    float _e210 = outline.diffuse;
+    metal::float3 _e212 = start_1;
+    metal::float3 _e213 = start_offset;
+    metal::float3 _e214 = end_1;
+    metal::float3 _e215 = end_offset;
+    metal::float3 _e216 = ltc_edge_from(reference_7, _e212, _e213, _e214, _e215, _e199);
+    outline.diffuse = _e210 - metal::dot(surface.normal, _e216);
     return;
 }
 #endif
@@ -2795,7 +2818,8 @@ LtcOutlineLobe ltc_outline_lobe_begin(
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
+// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space, `exact` as for
+// ltc_crossing.
 void ltc_outline_lobe_edge(
     thread LtcOutlineLobe& sum_4,
     LtcLobe lobe,
@@ -2804,63 +2828,65 @@ void ltc_outline_lobe_edge(
     metal::float3 a_offset,
     metal::float3 b,
     metal::float3 b_offset,
-    metal::float3 normal
+    metal::float3 normal,
+    bool exact
 ) {
     metal::float3 start = {};
     metal::float3 start_offset = {};
     metal::float3 end = {};
     metal::float3 end_offset = {};
-    metal::float3 _e8 = ltc_transform(lobe, a);
-    metal::float3 _e9 = ltc_transform(lobe, b);
-    metal::float3 _e10 = ltc_transform(lobe, a_offset);
-    metal::float3 _e11 = ltc_transform(lobe, b_offset);
-    metal::float3 _e12 = ltc_transform_normal(lobe, normal);
-    float _e13 = ltc_above_tolerance(lobe);
-    bool _e14 = ltc_is_above(_e8, _e13);
-    bool _e15 = ltc_is_above(_e9, _e13);
-    if (!((_e14 | _e15))) {
+    metal::float3 _e9 = ltc_transform(lobe, a);
+    metal::float3 _e10 = ltc_transform(lobe, b);
+    metal::float3 _e11 = ltc_transform(lobe, a_offset);
+    metal::float3 _e12 = ltc_transform(lobe, b_offset);
+    metal::float3 _e13 = ltc_transform_normal(lobe, normal);
+    float _e14 = ltc_above_tolerance(lobe);
+    bool _e15 = ltc_is_above(_e9, _e14);
+    bool _e16 = ltc_is_above(_e10, _e14);
+    if (!((_e15 | _e16))) {
         return;
     }
-    start = _e8;
-    start_offset = _e10;
-    end = _e9;
-    end_offset = _e11;
-    if (!((_e14 & _e15))) {
-        metal::float3 above = _e14 ? _e8 : _e9;
-        metal::float3 below = _e14 ? _e9 : _e8;
-        metal::float3 above_offset = _e14 ? _e10 : _e11;
-        metal::float3 below_offset = _e14 ? _e11 : _e10;
+    start = _e9;
+    start_offset = _e11;
+    end = _e10;
+    end_offset = _e12;
+    if (!((_e15 & _e16))) {
+        metal::float3 above = _e15 ? _e9 : _e10;
+        metal::float3 below = _e15 ? _e10 : _e9;
+        metal::float3 above_offset = _e15 ? _e11 : _e12;
+        metal::float3 below_offset = _e15 ? _e12 : _e11;
         float high = metal::max(above.z, 0.0);
         float t = high / metal::max(high - metal::min(below.z, 0.0), LTC_TINY);
-        metal::float3 _e40 = ltc_crossing(above, below, _e14 ? _e12 : -(_e12));
-        metal::float3 crossing_offset_1 = above_offset + ((below_offset - above_offset) * t);
-        bool _e45 = sum_4.crossed;
-        if (_e45) {
+        metal::float3 _e41 = ltc_crossing(above, below, _e15 ? _e13 : -(_e13), exact);
+        bool distant = metal::max(metal::dot(above_offset, above_offset), metal::dot(below_offset, below_offset)) < (0.0625 * metal::dot(reference, reference));
+        metal::float3 crossing_offset_1 = distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e41 - reference);
+        bool _e55 = sum_4.crossed;
+        if (_e55) {
             metal::float3 base = sum_4.crossing;
             metal::float3 base_offset = sum_4.crossing_offset;
-            metal::float3 horizon_start = _e14 ? _e40 : base;
-            metal::float3 horizon_end = _e14 ? base : _e40;
-            metal::float3 _e53 = sum_4.sum;
-            metal::float3 _e57 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
-            metal::float3 _e58 = ltc_edge_from(reference, horizon_start, _e14 ? crossing_offset_1 : base_offset, horizon_end, _e14 ? base_offset : crossing_offset_1, _e57);
-            sum_4.sum = _e53 - _e58;
+            metal::float3 horizon_start = _e15 ? _e41 : base;
+            metal::float3 horizon_end = _e15 ? base : _e41;
+            metal::float3 _e63 = sum_4.sum;
+            metal::float3 _e67 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
+            metal::float3 _e68 = ltc_edge_from(reference, horizon_start, _e15 ? crossing_offset_1 : base_offset, horizon_end, _e15 ? base_offset : crossing_offset_1, _e67);
+            sum_4.sum = _e63 - _e68;
         } else {
             sum_4.crossed = true;
-            sum_4.crossing = _e40;
+            sum_4.crossing = _e41;
             sum_4.crossing_offset = crossing_offset_1;
         }
-        start = _e14 ? _e8 : _e40;
-        start_offset = _e14 ? _e10 : crossing_offset_1;
-        end = _e14 ? _e40 : _e9;
-        end_offset = _e14 ? crossing_offset_1 : _e11;
+        start = _e15 ? _e9 : _e41;
+        start_offset = _e15 ? _e11 : crossing_offset_1;
+        end = _e15 ? _e41 : _e10;
+        end_offset = _e15 ? crossing_offset_1 : _e12;
     }
-    metal::float3 _e69 = sum_4.sum;
-    metal::float3 _e70 = start;
-    metal::float3 _e71 = start_offset;
-    metal::float3 _e72 = end;
-    metal::float3 _e73 = end_offset;
-    metal::float3 _e74 = ltc_edge_from(reference, _e70, _e71, _e72, _e73, _e12);
-    sum_4.sum = _e69 - _e74;
+    metal::float3 _e79 = sum_4.sum;
+    metal::float3 _e80 = start;
+    metal::float3 _e81 = start_offset;
+    metal::float3 _e82 = end;
+    metal::float3 _e83 = end_offset;
+    metal::float3 _e84 = ltc_edge_from(reference, _e80, _e81, _e82, _e83, _e13);
+    sum_4.sum = _e79 - _e84;
     return;
 }
 #endif
@@ -2909,9 +2935,9 @@ void ltc_outline_lobe_add(
     }
 #endif
     if (outline.closes) {
-        ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal);
+        ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal, true);
     }
-    ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal);
+    ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal, false);
     return;
 }
 #endif
@@ -3209,7 +3235,7 @@ metal::float3 ltc_tube_line(
     metal::float3 b_unit = b * b_inverse;
     float a_cosine = metal::min(distance_to_line * a_inverse, 1.0);
     float b_cosine = metal::min(distance_to_line * b_inverse, 1.0);
-    float ends_sine = (length_of_line * a_inverse) * b_cosine;
+    float ends_sine = length_of_line * metal::min(a_inverse * b_cosine, b_inverse * a_cosine);
     metal::float3 chord = b_unit - a_unit;
     float change = b_cosine - a_cosine;
     float ends_k = 0.5 * (metal::dot(chord, chord) + ((hidden * change) * change));
@@ -3217,8 +3243,8 @@ metal::float3 ltc_tube_line(
     float agreed = metal::rsqrt(metal::max((ends_sine * ends_sine) + (ends_cosine * ends_cosine), LTC_TINY));
     float sine = ends_sine * agreed;
     float k = ends_k + (((1.0 - (ends_cosine * agreed)) - ends_k) * metal::min(ends_k, 1.0));
-    float _e62 = ltc_angle_excess(metal::min(k, metal::max(2.0 - k, 0.0)));
-    float bulge = (k > 1.0) ? (LTC_PI - (sine * ((2.0 + _e62) - metal::min(k, 2.0)))) : (sine * (_e62 + k));
+    float _e64 = ltc_angle_excess(metal::min(k, metal::max(2.0 - k, 0.0)));
+    float bulge = (k > 1.0) ? (LTC_PI - (sine * ((2.0 + _e64) - metal::min(k, 2.0)))) : (sine * (_e64 + k));
     return ((((a_unit * b_cosine) + (b_unit * a_cosine)) * sine) + (foot * bulge)) * 0.31830987;
 }
 #endif
@@ -4454,10 +4480,11 @@ LtcDisk ltc_disk_begin(
     disk.cut = _e60;
     float _e64 = disk.cut.offset;
     disk.clipped = _e64 > -1.0;
-    float _e76 = disk.cut.offset;
-    disk.reaches = (front | ((two_sided & ltc_use_two_sided) & (volume_2 > 0.0))) & (_e76 < 1.0);
-    LtcDisk _e80 = disk;
-    return _e80;
+    bool is_line = metal::dot(normal_18, normal_18) <= LTC_TINY;
+    float _e79 = disk.cut.offset;
+    disk.reaches = ((front | ((two_sided & ltc_use_two_sided) & (volume_2 > 0.0))) & (_e79 < 1.0)) & !(is_line);
+    LtcDisk _e85 = disk;
+    return _e85;
 }
 #endif
 

@@ -553,10 +553,15 @@ fn ltc_angle_excess(k: f32) -> f32 {
     return (low * k + 0.33332586) * k;
 }
 
+/// The shorter of two vectors.
+fn ltc_shorter(a: vec3<f32>, b: vec3<f32>) -> vec3<f32> {
+    return select(a, b, dot(b, b) < dot(a, a));
+}
+
 /// The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
 /// two has the fewest digits to lose.
 fn ltc_edge_normal(a: vec3<f32>, b: vec3<f32>, side: vec3<f32>) -> vec3<f32> {
-    return cross(select(a, b, dot(b, b) < dot(a, a)), side);
+    return cross(ltc_shorter(a, b), side);
 }
 
 /// The edge integral of the segment between the directions `a` and `b`: the angle between these unit vectors along
@@ -632,18 +637,28 @@ fn ltc_above_tolerance(lobe: LtcLobe) -> f32 {
     return 1e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0);
 }
 
-/// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
-/// it passes the surface point closely. `normal` has the direction of above x below.
-fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>) -> vec3<f32> {
+/// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that
+/// where it passes the surface point closely. `normal` has the direction of above x below; `exact` tells that it does not come
+/// from these points and their rounding.
+fn ltc_crossing(above: vec3<f32>, below: vec3<f32>, normal: vec3<f32>, exact: bool) -> vec3<f32> {
     let high = max(above.z, 0.0);
     let t = high / max(high - min(below.z, 0.0), LTC_TINY);
     let between = vec3<f32>(above.xy + (below.xy - above.xy) * t, 0.0);
-    // Where the segment passes the surface point closely the ends cancel; the plane of the segment still
-    // has its digits, unless it is that of the horizon.
+    let above_square = dot(above, above);
+    let below_square = dot(below, below);
+    // Where the segment passes the surface point closely the ends cancel.
+    let cancels = dot(between, between) < 1e-6 * max(above_square, below_square);
+    // The plane of the segment still has its digits if an end is close as well, or if it is known. Its direction in the horizon
+    // errs by the rounding of `normal` over the sine of the angle between the planes; `between` by an unknown part
+    // of a segment that is that sine away from the horizon. Here the two are equal.
     let turned = vec3<f32>(normal.y, -normal.x, 0.0);
-    let cancels = dot(between, between) < 1e-6 * max(dot(above, above), dot(below, below));
-    let tilted = dot(turned, turned) > 1e-3 * dot(normal, normal);
-    return select(between, turned, cancels & tilted);
+    let turned_square = dot(turned, turned);
+    let normal_square = dot(normal, normal);
+    let normal_inverse = inverseSqrt(max(normal_square, LTC_TINY));
+    let rounding = select(inverseSqrt(max(above_square, LTC_TINY)) * inverseSqrt(max(below_square, LTC_TINY)), normal_inverse, exact);
+    let tilted = turned_square * rounding > 2e-7 * normal_square * normal_inverse;
+    // Of unit length, as products of two such must not vanish.
+    return select(between, turned * inverseSqrt(max(turned_square, LTC_TINY)), cancels & tilted);
 }
 
 /// The form factor of what a horizon leaves of a round light: `size` is the sine of its half-angle, `tilt` the cosine between
@@ -1359,7 +1374,9 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
     let b = (b_far - origin) * scale;
     let a_offset = (a_far - first_far) * scale;
     let b_offset = (b_far - first_far) * scale;
-    (*outline).facing += dot(cross(a_offset, b_offset), reference);
+    // The determinant of first vertex, a and b, by the shortest of the vectors that give it: next to a point far from the first
+    // vertex the offsets from there differ by rounding alone.
+    (*outline).facing += dot(cross(ltc_shorter(ltc_shorter(a_offset, b_offset), ltc_shorter(a, b)), (b_far - a_far) * scale), reference);
     (*outline).previous = corner;
     (*outline).reference = reference;
     if (ltc_use_cheap_horizon) {
@@ -1409,7 +1426,9 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
         let high = max(select(b_height, a_height, a_up), 0.0);
         let low = min(select(a_height, b_height, a_up), 0.0);
         let t = high / max(high - low, LTC_TINY);
-        let crossing = above + (below - above) * t;
+        let between = above + (below - above) * t;
+        // Its height is zero, not the rounding of its ends: close to the surface point a lobe's horizon would go by that.
+        let crossing = between - surface.normal * dot(surface.normal, between);
         let crossing_offset = above_offset + (below_offset - above_offset) * t;
         if ((*outline).crossed) {
             let base = (*outline).crossing;
@@ -1475,13 +1494,14 @@ fn ltc_outline_lobe_add(sum: ptr<function, LtcOutlineLobe>, outline: LtcOutline,
         return;
     }
     if (outline.closes) {
-        ltc_outline_lobe_edge(sum, lobe, reference, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal);
+        ltc_outline_lobe_edge(sum, lobe, reference, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal, true);
     }
-    ltc_outline_lobe_edge(sum, lobe, reference, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal);
+    ltc_outline_lobe_edge(sum, lobe, reference, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal, false);
 }
 
-/// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
-fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, normal: vec3<f32>) {
+/// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space, `exact` as for
+/// ltc_crossing.
+fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, normal: vec3<f32>, exact: bool) {
     let m_a = ltc_transform(lobe, a);
     let m_b = ltc_transform(lobe, b);
     let m_a_offset = ltc_transform(lobe, a_offset);
@@ -1504,8 +1524,11 @@ fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, refe
         let below_offset = select(m_a_offset, m_b_offset, a_up);
         let high = max(above.z, 0.0);
         let t = high / max(high - min(below.z, 0.0), LTC_TINY);
-        let crossing = ltc_crossing(above, below, select(-m_normal, m_normal, a_up));
-        let crossing_offset = above_offset + (below_offset - above_offset) * t;
+        let crossing = ltc_crossing(above, below, select(-m_normal, m_normal, a_up), exact);
+        // The offsets of a distant light hold more digits than its points. Elsewhere a crossing may be a direction only, and
+        // its offset has to be that of the point that stands for it.
+        let distant = max(dot(above_offset, above_offset), dot(below_offset, below_offset)) < 0.0625 * dot(reference, reference);
+        let crossing_offset = select(crossing - reference, above_offset + (below_offset - above_offset) * t, distant);
         if ((*sum).crossed) {
             let base = (*sum).crossing;
             let base_offset = (*sum).crossing_offset;
@@ -1715,7 +1738,8 @@ fn ltc_tube_line(a: vec3<f32>, b: vec3<f32>, foot: vec3<f32>, distance_to_line: 
     let b_unit = b * b_inverse;
     let a_cosine = min(distance_to_line * a_inverse, 1.0);
     let b_cosine = min(distance_to_line * b_inverse, 1.0);
-    let ends_sine = length_of_line * a_inverse * b_cosine;
+    // As if no farther than its ends, whichever is named first: a line that the horizon has moved may be nearer than that.
+    let ends_sine = length_of_line * min(a_inverse * b_cosine, b_inverse * a_cosine);
     let chord = b_unit - a_unit;
     let change = b_cosine - a_cosine;
     let ends_k = 0.5 * (dot(chord, chord) + hidden * change * change);
@@ -2767,7 +2791,9 @@ fn ltc_disk_begin(surface: LtcSurface, centre: vec3<f32>, half_x: vec3<f32>, hal
     disk.volume = abs(volume);
     disk.cut = ltc_cut(surface.normal, disk.half_x, disk.half_y, disk.size, disk.centre);
     disk.clipped = disk.cut.offset > -1.0;
-    disk.reaches = (front | (two_sided & ltc_use_two_sided & (volume > 0.0))) & (disk.cut.offset < 1.0);
+    // An ellipse more slender than 1e18 has no plane in single precision, and no area.
+    let is_line = dot(normal, normal) <= LTC_TINY;
+    disk.reaches = (front | (two_sided & ltc_use_two_sided & (volume > 0.0))) & (disk.cut.offset < 1.0) & !is_line;
     return disk;
 }
 

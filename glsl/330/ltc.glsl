@@ -1211,10 +1211,18 @@ float ltc_angle_excess(float k) {
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
+// The shorter of two vectors.
+vec3 ltc_shorter(vec3 a, vec3 b) {
+    return ((dot(b, b) < dot(a, a)) ? b : a);
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || LTC_POLYGON || LTC_QUAD || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE) || LTC_TEXTURED
 // The cross product a x b of two vectors whose difference b - a is `side`. That with the shorter of the
 // two has the fewest digits to lose.
 vec3 ltc_edge_normal(vec3 a, vec3 b, vec3 side) {
-    return cross(((dot(b, b) < dot(a, a)) ? b : a), side);
+    vec3 _e3 = ltc_shorter(a, b);
+    return cross(_e3, side);
 }
 #endif
 
@@ -1311,16 +1319,23 @@ float ltc_above_tolerance(LtcLobe lobe) {
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where
-// it passes the surface point closely. `normal` has the direction of above x below.
-vec3 ltc_crossing(vec3 above, vec3 below, vec3 normal) {
+// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that
+// where it passes the surface point closely. `normal` has the direction of above x below; `exact` tells that it does not come
+// from these points and their rounding.
+vec3 ltc_crossing(vec3 above, vec3 below, vec3 normal, bool exact) {
     float high = max(above.z, 0.0);
     float t = (high / max((high - min(below.z, 0.0)), LTC_TINY));
     vec3 between = vec3((above.xy + ((below.xy - above.xy) * t)), 0.0);
+    float above_square = dot(above, above);
+    float below_square = dot(below, below);
+    bool cancels = (dot(between, between) < (1e-6 * max(above_square, below_square)));
     vec3 turned = vec3(normal.y, -(normal.x), 0.0);
-    bool cancels = (dot(between, between) < (1e-6 * max(dot(above, above), dot(below, below))));
-    bool tilted = (dot(turned, turned) > (0.001 * dot(normal, normal)));
-    return ((cancels && tilted) ? turned : between);
+    float turned_square = dot(turned, turned);
+    float normal_square = dot(normal, normal);
+    float normal_inverse = inversesqrt(max(normal_square, LTC_TINY));
+    float rounding = (exact ? normal_inverse : (inversesqrt(max(above_square, LTC_TINY)) * inversesqrt(max(below_square, LTC_TINY))));
+    bool tilted = ((turned_square * rounding) > ((2e-7 * normal_square) * normal_inverse));
+    return ((cancels && tilted) ? (turned * inversesqrt(max(turned_square, LTC_TINY))) : between);
 }
 #endif
 
@@ -1705,10 +1720,10 @@ vec3 ltc_fast_unit(vec3 v) {
 
 #if (LTC_CHEAP_DISTANCE && LTC_CHEAP_HORIZON && LTC_QUAD) || (LTC_CHEAP_DISTANCE && LTC_CHEAP_HORIZON && LTC_TEXTURED)
 // A quad light as its four directions, in the place of the vertices, in the surface's frame.
-LtcQuad ltc_fast_quad(LtcSurface surface, vec3 a_8, vec3 b_7, vec3 c_3, vec3 d_3, bool two_sided_2) {
+LtcQuad ltc_fast_quad(LtcSurface surface, vec3 a_9, vec3 b_8, vec3 c_3, vec3 d_3, bool two_sided_2) {
     LtcQuad quad = LtcQuad(vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0));
-    float _e6 = ltc_extent(a_8);
-    float _e7 = ltc_extent(b_7);
+    float _e6 = ltc_extent(a_9);
+    float _e7 = ltc_extent(b_8);
     float _e9 = ltc_extent(c_3);
     float _e10 = ltc_extent(d_3);
     float reach = max(max(_e6, _e7), max(_e9, _e10));
@@ -1716,10 +1731,10 @@ LtcQuad ltc_fast_quad(LtcSurface surface, vec3 a_8, vec3 b_7, vec3 c_3, vec3 d_3
     float extent = max(max(reach, _e14), 1e-30);
     float scale = uintBitsToFloat((2139095040u - (floatBitsToUint(extent) & 2139095040u)));
     vec3 origin = (surface.position * scale);
-    vec3 _e30 = ltc_fast_unit(((a_8 * scale) - origin));
+    vec3 _e30 = ltc_fast_unit(((a_9 * scale) - origin));
     vec3 _e31 = ltc_in_frame(surface, _e30);
     quad.a = _e31;
-    vec3 _e35 = ltc_fast_unit(((b_7 * scale) - origin));
+    vec3 _e35 = ltc_fast_unit(((b_8 * scale) - origin));
     vec3 _e36 = ltc_in_frame(surface, _e35);
     quad.b = _e36;
     vec3 _e40 = ltc_fast_unit(((c_3 * scale) - origin));
@@ -1744,7 +1759,7 @@ LtcQuad ltc_fast_quad(LtcSurface surface, vec3 a_8, vec3 b_7, vec3 c_3, vec3 d_3
 
 #if LTC_QUAD || LTC_TEXTURED
 // Cuts a convex quad light with the vertices `a`, `b`, `c`, `d` at the surface's horizon; see ltc_quad.
-LtcQuad ltc_quad_begin(LtcSurface surface, vec3 a_9, vec3 b_8, vec3 c_4, vec3 d_4, bool two_sided_3) {
+LtcQuad ltc_quad_begin(LtcSurface surface, vec3 a_10, vec3 b_9, vec3 c_4, vec3 d_4, bool two_sided_3) {
     LtcQuad quad = LtcQuad(vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0));
     vec4 v_b = vec4(0.0);
     vec4 v_c = vec4(0.0);
@@ -1753,14 +1768,14 @@ LtcQuad ltc_quad_begin(LtcSurface surface, vec3 a_9, vec3 b_8, vec3 c_4, vec3 d_
     vec4 v_e = vec4(0.0);
 #if LTC_CHEAP_DISTANCE && LTC_CHEAP_HORIZON
     if ((ltc_use_cheap_horizon && ltc_use_cheap_distance)) {
-        LtcQuad _e9 = ltc_fast_quad(surface, a_9, b_8, c_4, d_4, two_sided_3);
+        LtcQuad _e9 = ltc_fast_quad(surface, a_10, b_9, c_4, d_4, two_sided_3);
         return _e9;
     }
 #endif
     vec3 origin = (surface.position * LTC_HEADROOM);
-    vec3 a_far = (a_9 * LTC_HEADROOM);
+    vec3 a_far = (a_10 * LTC_HEADROOM);
     vec3 a_full = (a_far - origin);
-    vec3 b_full = ((b_8 * LTC_HEADROOM) - origin);
+    vec3 b_full = ((b_9 * LTC_HEADROOM) - origin);
     vec3 c_full = ((c_4 * LTC_HEADROOM) - origin);
     vec3 d_full = ((d_4 * LTC_HEADROOM) - origin);
     float _e25 = ltc_extent(a_full);
@@ -1769,7 +1784,7 @@ LtcQuad ltc_quad_begin(LtcSurface surface, vec3 a_9, vec3 b_8, vec3 c_4, vec3 d_
     float _e29 = ltc_extent(d_full);
     float extent = max(max(_e25, _e26), max(_e28, _e29));
     float scale = (1.0 / max(extent, LTC_TINY));
-    vec3 side_b = (((b_8 * LTC_HEADROOM) - a_far) * scale);
+    vec3 side_b = (((b_9 * LTC_HEADROOM) - a_far) * scale);
     vec3 side_c = (((c_4 * LTC_HEADROOM) - a_far) * scale);
     vec3 side_d = (((d_4 * LTC_HEADROOM) - a_far) * scale);
     vec3 p_a = (a_full * scale);
@@ -2047,7 +2062,7 @@ vec3 ltc_fast_lobe(LtcQuad quad, LtcLobe lobe) {
 #if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // The vector form factor of a quad in a lobe's space, cut at both horizons, towards the light.
 vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
-    vec3 b_10 = vec3(0.0);
+    vec3 b_11 = vec3(0.0);
     vec3 c_6 = vec3(0.0);
     vec3 d_6 = vec3(0.0);
     vec3 e_3 = vec3(0.0);
@@ -2070,7 +2085,7 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
 #endif
     vec3 _e11 = ltc_transform_framed(lobe, quad.a);
     vec3 _e13 = ltc_transform_framed(lobe, quad.b);
-    b_10 = _e13;
+    b_11 = _e13;
     vec3 _e16 = ltc_transform_framed(lobe, quad.c);
     c_6 = _e16;
     vec3 _e19 = ltc_transform_framed(lobe, quad.d);
@@ -2088,18 +2103,18 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
     rim = quad.rim;
 #if !LTC_CHEAP_DISTANCE
     if ((!(ltc_use_cheap_distance) && quad.distant)) {
-        float _e44 = b_10.z;
+        float _e44 = b_11.z;
         float _e46 = c_6.z;
         float _e49 = d_6.z;
         float _e51 = e_3.z;
         float lowest = (_e11.z + min(min(min(_e44, _e46), min(_e49, _e51)), 0.0));
-        float _e59 = b_10.z;
+        float _e59 = b_11.z;
         float _e61 = c_6.z;
         float _e64 = d_6.z;
         float _e66 = e_3.z;
         float highest = (_e11.z + max(max(max(_e59, _e61), max(_e64, _e66)), 0.0));
-        vec3 _e72 = b_10;
-        vec3 _e73 = b_10;
+        vec3 _e72 = b_11;
+        vec3 _e73 = b_11;
         vec3 _e75 = c_6;
         vec3 _e76 = c_6;
         vec3 _e79 = d_6;
@@ -2120,8 +2135,8 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
 #endif
         bool _e108 = distant;
         if (!(_e108)) {
-            vec3 _e110 = b_10;
-            b_10 = (_e110 + _e11);
+            vec3 _e110 = b_11;
+            b_11 = (_e110 + _e11);
             vec3 _e112 = c_6;
             c_6 = (_e112 + _e11);
             vec3 _e114 = d_6;
@@ -2142,7 +2157,7 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
         bool _e149 = distant;
         moved.distant = _e149;
         moved.a = _e11;
-        vec3 _e152 = b_10;
+        vec3 _e152 = b_11;
         moved.b = _e152;
         vec3 _e154 = c_6;
         moved.c = _e154;
@@ -2173,7 +2188,7 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
     bool _e187 = distant;
 #if !LTC_CHEAP_DISTANCE
     if ((!(ltc_use_cheap_distance) && _e187)) {
-        vec3 _e189 = b_10;
+        vec3 _e189 = b_11;
         vec3 _e190 = c_6;
         vec3 _e191 = d_6;
         vec3 _e192 = e_3;
@@ -2183,7 +2198,7 @@ vec3 ltc_quad_lobe(LtcQuad quad, LtcLobe lobe) {
 #else
     {
 #endif
-        vec3 _e195 = b_10;
+        vec3 _e195 = b_11;
         vec3 _e196 = c_6;
         vec3 _e197 = d_6;
         vec3 _e198 = e_3;
@@ -2360,21 +2375,24 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
     vec3 a_offset = ((a_far - first_far) * scale_3);
     vec3 b_offset = ((b_far - first_far) * scale_3);
     float _e39 = outline.facing;
-    outline.facing = (_e39 + dot(cross(a_offset, b_offset), reference_7));
+    vec3 _e40 = ltc_shorter(a_offset, b_offset);
+    vec3 _e41 = ltc_shorter(a, b);
+    vec3 _e42 = ltc_shorter(_e40, _e41);
+    outline.facing = (_e39 + dot(cross(_e42, ((b_far - a_far) * scale_3)), reference_7));
     outline.previous = corner;
     outline.reference = reference_7;
 #if LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon) {
 #if LTC_CHEAP_DISTANCE
         if (ltc_use_cheap_distance) {
-            vec3 _e49 = ltc_fast_unit(a);
-            outline.start = _e49;
-            vec3 _e51 = ltc_fast_unit(b);
-            outline.end = _e51;
-            vec3 _e53 = outline.start;
-            vec3 _e55 = outline.end;
-            vec3 _e56 = ltc_fast_edge(_e53, _e55);
-            edge = _e56;
+            vec3 _e54 = ltc_fast_unit(a);
+            outline.start = _e54;
+            vec3 _e56 = ltc_fast_unit(b);
+            outline.end = _e56;
+            vec3 _e58 = outline.start;
+            vec3 _e60 = outline.end;
+            vec3 _e61 = ltc_fast_edge(_e58, _e60);
+            edge = _e61;
         }
 #endif
 #if !LTC_CHEAP_DISTANCE
@@ -2383,19 +2401,19 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
             outline.end = b;
             outline.start_offset = a_offset;
             outline.end_offset = b_offset;
-            vec3 _e65 = ltc_edge_normal(a, b, (b_offset - a_offset));
-            outline.normal = _e65;
-            vec3 _e67 = outline.normal;
-            vec3 _e68 = ltc_edge_from(reference_7, a, a_offset, b, b_offset, _e67);
-            edge = _e68;
+            vec3 _e70 = ltc_edge_normal(a, b, (b_offset - a_offset));
+            outline.normal = _e70;
+            vec3 _e72 = outline.normal;
+            vec3 _e73 = ltc_edge_from(reference_7, a, a_offset, b, b_offset, _e72);
+            edge = _e73;
         }
 #endif
-        vec3 _e70 = outline.sum;
-        vec3 _e71 = edge;
-        outline.sum = (_e70 - _e71);
-        float _e74 = outline.diffuse;
+        vec3 _e75 = outline.sum;
         vec3 _e76 = edge;
-        outline.diffuse = (_e74 - dot(surface.normal, _e76));
+        outline.sum = (_e75 - _e76);
+        float _e79 = outline.diffuse;
+        vec3 _e81 = edge;
+        outline.diffuse = (_e79 - dot(surface.normal, _e81));
         return;
     }
 #endif
@@ -2404,9 +2422,9 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
     float a_height = (near ? (height + dot(surface.normal, a_offset)) : dot(surface.normal, a));
     float b_height = (near ? (height + dot(surface.normal, b_offset)) : dot(surface.normal, b));
     bool a_up = outline.previous_up;
-    bool _e108 = outline.first_up;
-    vec3 _e110 = outline.first;
-    bool b_up = (all(equal(corner, _e110)) ? _e108 : (b_height > 0.0));
+    bool _e113 = outline.first_up;
+    vec3 _e115 = outline.first;
+    bool b_up = (all(equal(corner, _e115)) ? _e113 : (b_height > 0.0));
     outline.previous_up = b_up;
     outline.above = (a_up || b_up);
     outline.closes = false;
@@ -2425,27 +2443,28 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
         float high = max((a_up ? a_height : b_height), 0.0);
         float low = min((a_up ? b_height : a_height), 0.0);
         float t = (high / max((high - low), LTC_TINY));
-        vec3 crossing = (above_2 + ((below - above_2) * t));
+        vec3 between = (above_2 + ((below - above_2) * t));
+        vec3 crossing = (between - (surface.normal * dot(surface.normal, between)));
         vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-        bool _e148 = outline.crossed;
-        if (_e148) {
+        bool _e158 = outline.crossed;
+        if (_e158) {
             vec3 base = outline.crossing;
             vec3 base_offset = outline.crossing_offset;
             vec3 horizon_start = (a_up ? crossing : base);
             vec3 horizon_end = (a_up ? base : crossing);
             vec3 horizon_start_offset = (a_up ? crossing_offset : base_offset);
             vec3 horizon_end_offset = (a_up ? base_offset : crossing_offset);
-            vec3 _e158 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
-            vec3 normal_13 = (surface.normal * dot(surface.normal, _e158));
+            vec3 _e168 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
+            vec3 normal_13 = (surface.normal * dot(surface.normal, _e168));
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
             outline.horizon_normal = normal_13;
-            float _e171 = outline.diffuse;
-            vec3 _e173 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
-            outline.diffuse = (_e171 - dot(surface.normal, _e173));
+            float _e181 = outline.diffuse;
+            vec3 _e183 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
+            outline.diffuse = (_e181 - dot(surface.normal, _e183));
         } else {
             outline.crossed = true;
             outline.crossing = crossing;
@@ -2456,27 +2475,27 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
         end_1 = (a_up ? crossing : b);
         end_offset = (a_up ? crossing_offset : b_offset);
     }
-    vec3 _e184 = start_1;
-    vec3 _e185 = end_1;
-    vec3 _e186 = end_offset;
-    vec3 _e187 = start_offset;
-    vec3 _e189 = ltc_edge_normal(_e184, _e185, (_e186 - _e187));
-    vec3 _e191 = start_1;
-    outline.start = _e191;
-    vec3 _e193 = end_1;
-    outline.end = _e193;
-    vec3 _e195 = start_offset;
-    outline.start_offset = _e195;
-    vec3 _e197 = end_offset;
-    outline.end_offset = _e197;
-    outline.normal = _e189;
-    float _e200 = outline.diffuse;
-    vec3 _e202 = start_1;
-    vec3 _e203 = start_offset;
-    vec3 _e204 = end_1;
-    vec3 _e205 = end_offset;
-    vec3 _e206 = ltc_edge_from(reference_7, _e202, _e203, _e204, _e205, _e189);
-    outline.diffuse = (_e200 - dot(surface.normal, _e206));
+    vec3 _e194 = start_1;
+    vec3 _e195 = end_1;
+    vec3 _e196 = end_offset;
+    vec3 _e197 = start_offset;
+    vec3 _e199 = ltc_edge_normal(_e194, _e195, (_e196 - _e197));
+    vec3 _e201 = start_1;
+    outline.start = _e201;
+    vec3 _e203 = end_1;
+    outline.end = _e203;
+    vec3 _e205 = start_offset;
+    outline.start_offset = _e205;
+    vec3 _e207 = end_offset;
+    outline.end_offset = _e207;
+    outline.normal = _e199;
+    float _e210 = outline.diffuse;
+    vec3 _e212 = start_1;
+    vec3 _e213 = start_offset;
+    vec3 _e214 = end_1;
+    vec3 _e215 = end_offset;
+    vec3 _e216 = ltc_edge_from(reference_7, _e212, _e213, _e214, _e215, _e199);
+    outline.diffuse = (_e210 - dot(surface.normal, _e216));
     return;
 }
 #endif
@@ -2494,63 +2513,65 @@ LtcOutlineLobe ltc_outline_lobe_begin() {
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
-void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_4, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal) {
+// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space, `exact` as for
+// ltc_crossing.
+void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_4, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal, bool exact) {
     vec3 start = vec3(0.0);
     vec3 start_offset = vec3(0.0);
     vec3 end = vec3(0.0);
     vec3 end_offset = vec3(0.0);
-    vec3 _e8 = ltc_transform(lobe, a);
-    vec3 _e9 = ltc_transform(lobe, b);
-    vec3 _e10 = ltc_transform(lobe, a_offset);
-    vec3 _e11 = ltc_transform(lobe, b_offset);
-    vec3 _e12 = ltc_transform_normal(lobe, normal);
-    float _e13 = ltc_above_tolerance(lobe);
-    bool _e14 = ltc_is_above(_e8, _e13);
-    bool _e15 = ltc_is_above(_e9, _e13);
-    if (!((_e14 || _e15))) {
+    vec3 _e9 = ltc_transform(lobe, a);
+    vec3 _e10 = ltc_transform(lobe, b);
+    vec3 _e11 = ltc_transform(lobe, a_offset);
+    vec3 _e12 = ltc_transform(lobe, b_offset);
+    vec3 _e13 = ltc_transform_normal(lobe, normal);
+    float _e14 = ltc_above_tolerance(lobe);
+    bool _e15 = ltc_is_above(_e9, _e14);
+    bool _e16 = ltc_is_above(_e10, _e14);
+    if (!((_e15 || _e16))) {
         return;
     }
-    start = _e8;
-    start_offset = _e10;
-    end = _e9;
-    end_offset = _e11;
-    if (!((_e14 && _e15))) {
-        vec3 above = (_e14 ? _e8 : _e9);
-        vec3 below = (_e14 ? _e9 : _e8);
-        vec3 above_offset = (_e14 ? _e10 : _e11);
-        vec3 below_offset = (_e14 ? _e11 : _e10);
+    start = _e9;
+    start_offset = _e11;
+    end = _e10;
+    end_offset = _e12;
+    if (!((_e15 && _e16))) {
+        vec3 above = (_e15 ? _e9 : _e10);
+        vec3 below = (_e15 ? _e10 : _e9);
+        vec3 above_offset = (_e15 ? _e11 : _e12);
+        vec3 below_offset = (_e15 ? _e12 : _e11);
         float high = max(above.z, 0.0);
         float t = (high / max((high - min(below.z, 0.0)), LTC_TINY));
-        vec3 _e40 = ltc_crossing(above, below, (_e14 ? _e12 : -(_e12)));
-        vec3 crossing_offset_1 = (above_offset + ((below_offset - above_offset) * t));
-        bool _e45 = sum_4.crossed;
-        if (_e45) {
+        vec3 _e41 = ltc_crossing(above, below, (_e15 ? _e13 : -(_e13)), exact);
+        bool distant = (max(dot(above_offset, above_offset), dot(below_offset, below_offset)) < (0.0625 * dot(reference, reference)));
+        vec3 crossing_offset_1 = (distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e41 - reference));
+        bool _e55 = sum_4.crossed;
+        if (_e55) {
             vec3 base = sum_4.crossing;
             vec3 base_offset = sum_4.crossing_offset;
-            vec3 horizon_start = (_e14 ? _e40 : base);
-            vec3 horizon_end = (_e14 ? base : _e40);
-            vec3 _e53 = sum_4.sum;
-            vec3 _e57 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
-            vec3 _e58 = ltc_edge_from(reference, horizon_start, (_e14 ? crossing_offset_1 : base_offset), horizon_end, (_e14 ? base_offset : crossing_offset_1), _e57);
-            sum_4.sum = (_e53 - _e58);
+            vec3 horizon_start = (_e15 ? _e41 : base);
+            vec3 horizon_end = (_e15 ? base : _e41);
+            vec3 _e63 = sum_4.sum;
+            vec3 _e67 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
+            vec3 _e68 = ltc_edge_from(reference, horizon_start, (_e15 ? crossing_offset_1 : base_offset), horizon_end, (_e15 ? base_offset : crossing_offset_1), _e67);
+            sum_4.sum = (_e63 - _e68);
         } else {
             sum_4.crossed = true;
-            sum_4.crossing = _e40;
+            sum_4.crossing = _e41;
             sum_4.crossing_offset = crossing_offset_1;
         }
-        start = (_e14 ? _e8 : _e40);
-        start_offset = (_e14 ? _e10 : crossing_offset_1);
-        end = (_e14 ? _e40 : _e9);
-        end_offset = (_e14 ? crossing_offset_1 : _e11);
+        start = (_e15 ? _e9 : _e41);
+        start_offset = (_e15 ? _e11 : crossing_offset_1);
+        end = (_e15 ? _e41 : _e10);
+        end_offset = (_e15 ? crossing_offset_1 : _e12);
     }
-    vec3 _e69 = sum_4.sum;
-    vec3 _e70 = start;
-    vec3 _e71 = start_offset;
-    vec3 _e72 = end;
-    vec3 _e73 = end_offset;
-    vec3 _e74 = ltc_edge_from(reference, _e70, _e71, _e72, _e73, _e12);
-    sum_4.sum = (_e69 - _e74);
+    vec3 _e79 = sum_4.sum;
+    vec3 _e80 = start;
+    vec3 _e81 = start_offset;
+    vec3 _e82 = end;
+    vec3 _e83 = end_offset;
+    vec3 _e84 = ltc_edge_from(reference, _e80, _e81, _e82, _e83, _e13);
+    sum_4.sum = (_e79 - _e84);
     return;
 }
 #endif
@@ -2595,9 +2616,9 @@ void ltc_outline_lobe_add(inout LtcOutlineLobe sum_5, LtcOutline outline, LtcLob
     }
 #endif
     if (outline.closes) {
-        ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal);
+        ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal, true);
     }
-    ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal);
+    ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal, false);
     return;
 }
 #endif
@@ -2849,7 +2870,7 @@ vec3 ltc_tube_line(vec3 a, vec3 b, vec3 foot, float distance_to_line, float leng
     vec3 b_unit = (b * b_inverse);
     float a_cosine = min((distance_to_line * a_inverse), 1.0);
     float b_cosine = min((distance_to_line * b_inverse), 1.0);
-    float ends_sine = ((length_of_line * a_inverse) * b_cosine);
+    float ends_sine = (length_of_line * min((a_inverse * b_cosine), (b_inverse * a_cosine)));
     vec3 chord = (b_unit - a_unit);
     float change = (b_cosine - a_cosine);
     float ends_k = (0.5 * (dot(chord, chord) + ((hidden * change) * change)));
@@ -2857,8 +2878,8 @@ vec3 ltc_tube_line(vec3 a, vec3 b, vec3 foot, float distance_to_line, float leng
     float agreed = inversesqrt(max(((ends_sine * ends_sine) + (ends_cosine * ends_cosine)), LTC_TINY));
     float sine = (ends_sine * agreed);
     float k = (ends_k + (((1.0 - (ends_cosine * agreed)) - ends_k) * min(ends_k, 1.0)));
-    float _e62 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
-    float bulge = ((k > 1.0) ? (LTC_PI - (sine * ((2.0 + _e62) - min(k, 2.0)))) : (sine * (_e62 + k)));
+    float _e64 = ltc_angle_excess(min(k, max((2.0 - k), 0.0)));
+    float bulge = ((k > 1.0) ? (LTC_PI - (sine * ((2.0 + _e64) - min(k, 2.0)))) : (sine * (_e64 + k)));
     return (((((a_unit * b_cosine) + (b_unit * a_cosine)) * sine) + (foot * bulge)) * 0.31830987);
 }
 #endif
@@ -3879,10 +3900,11 @@ LtcDisk ltc_disk_begin(LtcSurface surface, vec3 centre_2, vec3 half_x_2, vec3 ha
     disk.cut = _e60;
     float _e64 = disk.cut.offset;
     disk.clipped = (_e64 > -1.0);
-    float _e76 = disk.cut.offset;
-    disk.reaches = ((front || ((two_sided && ltc_use_two_sided) && (volume_2 > 0.0))) && (_e76 < 1.0));
-    LtcDisk _e80 = disk;
-    return _e80;
+    bool is_line = (dot(normal_18, normal_18) <= LTC_TINY);
+    float _e79 = disk.cut.offset;
+    disk.reaches = (((front || ((two_sided && ltc_use_two_sided) && (volume_2 > 0.0))) && (_e79 < 1.0)) && !(is_line));
+    LtcDisk _e85 = disk;
+    return _e85;
 }
 #endif
 

@@ -62,6 +62,8 @@ pub fn ltc_disk_begin<R: Real>(
     let (half_x, half_y) = if front { (y, x) } else { (x, y) };
     let size = width * scale;
     let cut = ltc_cut::<R>(surface.normal, half_x, half_y, size, centre);
+    // As in the include: in single precision an ellipse more slender than 1e18 has no plane.
+    let is_line = normal.dot(normal) <= tiny;
     LtcDisk {
         half_x,
         half_y,
@@ -70,7 +72,7 @@ pub fn ltc_disk_begin<R: Real>(
         size,
         volume: volume.abs(),
         cut,
-        reaches: (front | (two_sided & (volume > zero))) & (cut.offset < one),
+        reaches: (front | (two_sided & (volume > zero))) & (cut.offset < one) & !is_line,
     }
 }
 

@@ -1,9 +1,11 @@
 //! Lights with the switches for a cheap horizon and a cheap distance.
 
-use super::quad::OVER_TWO_PI;
+use super::quad::{OVER_TWO_PI, ltc_shorter};
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
-use super::surface::{LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_in_frame, ltc_transform_framed};
+use super::surface::{
+    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_in_frame, ltc_transform_framed,
+};
 
 /// τ₀, τ₁ and τ₂ of the fit `softbox::fit::fit_half_angle`, from which the coefficients of [`ltc_fast_ratio`] come.
 pub const LTC_HALF_ANGLE: [f64; 3] = [1.569595133, -0.390705002, 0.169246011];
@@ -96,11 +98,19 @@ impl<R: Real> LtcFastLight<R> {
     /// A polygon of any number of vertices.
     pub fn polygon(surface: &LtcSurface<R>, vertices: &[R::Vec3], two_sided: bool) -> Self {
         let (mut units, mut facing) = (Vec::with_capacity(2 * vertices.len()), R::new(0.0));
-        for (index, &a) in vertices.iter().enumerate() {
-            let b = vertices[(index + 1) % vertices.len()];
-            let first = vertices[0];
-            facing += (a - first).cross(b - first).dot(first - surface.position);
-            units.extend(directions::<R, 2>(surface, [a, b]).map(|v| ltc_in_frame(surface, v)));
+        let headroom: R = R::new(LTC_HEADROOM);
+        let origin = surface.position * headroom;
+        let first = vertices[0] * headroom;
+        let unit = R::new(1.0) / ltc_extent::<R>(first - origin).max(R::new(LTC_TINY));
+        for (index, vertex) in vertices.iter().enumerate() {
+            let next = vertices[(index + 1) % vertices.len()];
+            let (a, b) = (*vertex * headroom, next * headroom);
+            let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
+            let unit = unit.min(R::new(1e8) / extent.max(R::new(1e-29)));
+            let offset = ltc_shorter::<R>((a - first) * unit, (b - first) * unit);
+            let point = ltc_shorter::<R>((a - origin) * unit, (b - origin) * unit);
+            facing += ltc_shorter::<R>(offset, point).cross((b - a) * unit).dot((first - origin) * unit);
+            units.extend(directions::<R, 2>(surface, [*vertex, next]).map(|v| ltc_in_frame(surface, v)));
         }
         let front = facing < R::new(0.0);
         let scale = if front { -OVER_TWO_PI } else { OVER_TWO_PI };

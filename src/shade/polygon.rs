@@ -1,7 +1,8 @@
 //! Polygons of any number of vertices, convex or not, vertex by vertex.
 
 use super::quad::{
-    OVER_TWO_PI, ltc_above_tolerance, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above, ltc_offset,
+    OVER_TWO_PI, ltc_above_tolerance, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above,
+    ltc_offset, ltc_shorter,
 };
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
@@ -26,8 +27,8 @@ pub struct LtcOutline<R: Real> {
     crossing: Option<Point<R>>,
     /// The first vertex, scaled as the points of the last edges.
     reference: R::Vec3,
-    /// What the last edge left above the surface, each with the cross product of its ends.
-    edges: [Option<(Edge<R>, R::Vec3)>; 2],
+    /// What the last edge left above the surface, each with the cross product of its ends, and whether it is a piece of the horizon.
+    edges: [Option<(Edge<R>, R::Vec3, bool)>; 2],
 }
 
 /// What one lobe knows of an outline.
@@ -88,8 +89,10 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
     let scale = outline.scale.min(R::new(1e8) / extent.max(R::new(1e-29)));
     let place = |v: R::Vec3| Point::<R> { at: (v - origin) * scale, offset: (v - first) * scale };
     let reference = place(first).at;
+    let side = (b - a) * scale;
     let (a, b) = (place(a), place(b));
-    outline.facing += a.offset.cross(b.offset).dot(reference);
+    let lever = ltc_shorter::<R>(ltc_shorter::<R>(a.offset, b.offset), ltc_shorter::<R>(a.at, b.at));
+    outline.facing += lever.cross(side).dot(reference);
     let closes = corner == outline.first;
     outline.previous = corner;
     outline.reference = reference;
@@ -105,17 +108,20 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
     let b_up = if closes { outline.first_up } else { b_height > zero };
     let a_up = core::mem::replace(&mut outline.previous_up, b_up);
     let ends = [(a, a_height, a_up), (b, b_height, b_up)];
-    let edges = cut(ends[0], ends[1], &mut outline.crossing, |above, below, t| Point {
-        at: above.at + (below.at - above.at) * t,
-        offset: above.offset + (below.offset - above.offset) * t,
+    let edges = cut(ends[0], ends[1], &mut outline.crossing, |above, below, t| {
+        let between = above.at + (below.at - above.at) * t;
+        Point {
+            at: between - normal * normal.dot(between),
+            offset: above.offset + (below.offset - above.offset) * t,
+        }
     });
     outline.edges = edges.map(|edge| {
         edge.map(|((start, end), closing)| {
             let product = ltc_edge_normal::<R>(start.at, end.at, end.offset - start.offset);
-            ((start, end), if closing { normal * normal.dot(product) } else { product })
+            ((start, end), if closing { normal * normal.dot(product) } else { product }, closing)
         })
     });
-    for (edge, product) in outline.edges.into_iter().flatten() {
+    for (edge, product, _) in outline.edges.into_iter().flatten() {
         outline.diffuse += -normal.dot(ltc_edge_from(reference, edge, product));
     }
 }
@@ -133,8 +139,8 @@ pub fn ltc_outline_lobe_add<R: Real>(
     lobe: &LtcLobe<R>,
 ) {
     let reference = ltc_transform(lobe, outline.reference);
-    for (edge, normal) in outline.edges.into_iter().flatten() {
-        ltc_outline_lobe_edge(sum, lobe, reference, edge, normal);
+    for (edge, normal, is_horizon) in outline.edges.into_iter().flatten() {
+        ltc_outline_lobe_edge(sum, lobe, reference, edge, normal, is_horizon);
     }
 }
 
@@ -230,6 +236,7 @@ fn ltc_outline_lobe_edge<R: Real>(
     reference: R::Vec3,
     (a, b): Edge<R>,
     normal: R::Vec3,
+    exact: bool,
 ) {
     let normal = ltc_transform_normal(lobe, normal);
     let (a, b) = (a.transform(lobe), b.transform(lobe));
@@ -237,9 +244,16 @@ fn ltc_outline_lobe_edge<R: Real>(
     let (a_up, b_up) = (ltc_is_above::<R>(a.at, tolerance), ltc_is_above::<R>(b.at, tolerance));
     let turned = if a_up { normal } else { -normal };
     let ends = [(a, a.at.z(), a_up), (b, b.at.z(), b_up)];
-    let edges = cut(ends[0], ends[1], &mut sum.crossing, |above, below, t| Point {
-        at: ltc_crossing::<R>(above.at, below.at, turned),
-        offset: above.offset + (below.offset - above.offset) * t,
+    let edges = cut(ends[0], ends[1], &mut sum.crossing, |above, below, t| {
+        let at = ltc_crossing::<R>(above.at, below.at, turned, exact);
+        let reach = above.offset.dot(above.offset).max(below.offset.dot(below.offset));
+        // As in the include: the offset of a point that is known by its direction only is that of what stands for it.
+        let offset = if reach < R::new(0.0625) * reference.dot(reference) {
+            above.offset + (below.offset - above.offset) * t
+        } else {
+            at - reference
+        };
+        Point { at, offset }
     });
     for (edge, closing) in edges.into_iter().flatten() {
         let (start, end) = edge;

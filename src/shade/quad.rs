@@ -14,9 +14,14 @@ pub fn ltc_angle_excess<R: Real>(k: R) -> R {
     R::angle_excess(k)
 }
 
+/// The shorter of two vectors.
+pub fn ltc_shorter<R: Real>(a: R::Vec3, b: R::Vec3) -> R::Vec3 {
+    if b.dot(b) < a.dot(a) { b } else { a }
+}
+
 /// The cross product a × b of two vectors whose difference b − a is `side`, from the shorter of the two.
 pub fn ltc_edge_normal<R: Real>(a: R::Vec3, b: R::Vec3, side: R::Vec3) -> R::Vec3 {
-    (if b.dot(b) < a.dot(a) { b } else { a }).cross(side)
+    ltc_shorter::<R>(a, b).cross(side)
 }
 
 /// The edge integral of the segment between the directions `a` and `b`: the angle between these unit vectors along
@@ -104,18 +109,24 @@ pub fn ltc_above_tolerance<R: Real>(lobe: &LtcLobe<R>) -> R {
     R::new(1e-12) * lobe.frame_z.dot(lobe.frame_z).min(R::new(1.0))
 }
 
-/// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only its direction where it
-/// passes the surface point closely. `normal` has the direction of above × below.
-pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3) -> R::Vec3 {
-    let zero: R = R::new(0.0);
+/// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that where
+/// it passes the surface point closely. `normal` has the direction of above × below; `exact` tells that it does not come
+/// from these points and their rounding.
+pub fn ltc_crossing<R: Real>(above: R::Vec3, below: R::Vec3, normal: R::Vec3, exact: bool) -> R::Vec3 {
+    let (zero, tiny): (R, R) = (R::new(0.0), R::new(LTC_TINY));
     let (high, low) = (above.z().max(zero), below.z().min(zero));
-    let t = high / (high - low).max(R::new(LTC_TINY));
+    let t = high / (high - low).max(tiny);
     let between =
         R::Vec3::new(above.x() + (below.x() - above.x()) * t, above.y() + (below.y() - above.y()) * t, zero);
+    let (above_square, below_square) = (above.dot(above), below.dot(below));
+    let cancels = between.dot(between) < R::new(1e-6) * above_square.max(below_square);
+    // As in the include: `turned` where its rounding does less harm than that of `between`.
     let turned = R::Vec3::new(normal.y(), -normal.x(), zero);
-    let cancels = between.dot(between) < R::new(1e-6) * above.dot(above).max(below.dot(below));
-    let tilted = turned.dot(turned) > R::new(1e-3) * normal.dot(normal);
-    if cancels & tilted { turned } else { between }
+    let (turned_square, normal_square) = (turned.dot(turned), normal.dot(normal));
+    let inverse = |square: R| square.max(tiny).inverse_sqrt();
+    let rounding = if exact { inverse(normal_square) } else { inverse(above_square) * inverse(below_square) };
+    let tilted = turned_square * rounding > R::new(2e-7) * normal_square * inverse(normal_square);
+    if cancels & tilted { unit::<R>(turned) } else { between }
 }
 
 /// (θ / sin θ) · `scale` for the angle θ whose cosine is given, if that is acute; otherwise that of π − θ, see

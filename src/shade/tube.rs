@@ -57,7 +57,8 @@ pub fn ltc_tube_line<R: Real>(a: R::Vec3, b: R::Vec3, foot: R::Vec3, distance: R
     let b_inverse = (b.dot(b) + inside).max(tiny).inverse_sqrt();
     let (a_unit, b_unit) = (a * a_inverse, b * b_inverse);
     let (a_cosine, b_cosine) = ((distance * a_inverse).min(one), (distance * b_inverse).min(one));
-    let sine = length * a_inverse * b_cosine;
+    // As if no farther than its ends, whichever is named first: a line that the horizon has moved may be nearer than that.
+    let sine = length * (a_inverse * b_cosine).min(b_inverse * a_cosine);
     let chord = b_unit - a_unit;
     let change = b_cosine - a_cosine;
     let k = half * (chord.dot(chord) + hidden * change * change);

@@ -78,13 +78,7 @@ pub(super) fn in_a_box(case: &Case, random: &mut Random) -> Option<Posed> {
         facing(case, &corners, as_quad)
     };
     let cases = (0..3).flat_map(|axis| [face(axis, low[axis]), face(axis, high[axis])]).collect();
-    let mut posed = Posed::exact(cases, Claim::AllAround).without_schlick();
-    if !as_quad {
-        // In a corner, next to three walls, the functions of polygons lose up to 0.04 of a lobe, in exact arithmetic as well:
-        // tests/relations.rs has the place.
-        posed.slack[1] = f64::INFINITY;
-    }
-    Some(posed)
+    Some(Posed::exact(cases, Claim::AllAround).without_schlick())
 }
 
 /// A disk lies between the polygons of its rim's points and of its tangents.

@@ -158,11 +158,7 @@ pub(super) fn named_otherwise(case: &Case, random: &mut Random) -> Option<Posed>
             };
             Shape::Disk { center, half_x, half_y, two_sided }
         }
-        Shape::Tube { start, end, radius, caps } => {
-            // Nothing is claimed of lobes: one that sees a tube at its horizon may give 1.5 % more from the other end.
-            slack = [0.0, f64::INFINITY, f64::INFINITY];
-            Shape::Tube { start: end, end: start, radius, caps }
-        }
+        Shape::Tube { start, end, radius, caps } => Shape::Tube { start: end, end: start, radius, caps },
         _ => return None,
     };
     let other = Case { shape, ..case.clone() };

@@ -95,13 +95,21 @@ fn flat(case: &Case, value: f64) -> [f64; 2] {
     let is_simple = polygon_normal(&seen).is_ok() && (!is_quad || is_convex_quad(&seen));
     let Some(sight) = Sight::of(&seen).filter(|_| is_simple) else { return [f64::INFINITY; 2] };
     let is_bent = sight.bend > 4.0 * coordinate_rounding(case);
-    let is_touched = sight.is_inside
-        && (sight.height == 0.0 || sight.height < 4.0 * TOUCHING * sight.farthest && !sight.is_level);
+    // How far rounding may move the plane of the light where the point is; that of a needle the farther, the narrower it is.
+    let narrow = (sight.size * sight.size / sight.area).max(1.0);
+    let uncertain = match sight.is_level {
+        true => 0.0,
+        false => narrow * (4.0 * TOUCHING * sight.farthest).max(8.0 * coordinate_rounding(case)),
+    };
+    let may_turn = sight.height == 0.0 || sight.height < uncertain;
+    // In the plane of a light that is not convex rounding may also bend it over the point.
+    let is_touched = sight.is_surrounded && may_turn;
     if is_bent || is_touched || sight.size < DISTANT.start {
         return [f64::INFINITY; 2];
     }
     if sight.size < DISTANT.end {
-        return distant(case, value, sight.size, sight.area, &seen);
+        // A needle counts as a hundredth as wide as it is long, as a disk does.
+        return distant(case, value, sight.size, sight.area.max(0.01 * sight.size * sight.size), &seen);
     }
     let twice = if is_quad { 1.0 } else { 2.0 };
     let close = 6e-8 * sight.ratio;
@@ -113,7 +121,10 @@ fn flat(case: &Case, value: f64) -> [f64; 2] {
     let far = f64::from(case.position.abs().max_element());
     let large = if sight.farthest.max(far) > 10.0 * sight.distance { 2.0 } else { 1.0 };
     let slack = if sight.ratio > 25.0 { close } else { 0.0 };
-    [form_factor, twice * large * 4e-6 / case.sharpness() + slack]
+    // The other side of a light next to which, but not on which, the point lies.
+    let turned = if may_turn { uncertain / sight.nearest } else { 0.0 };
+    let specular = twice * large * 4e-6 / case.sharpness() + slack + turned / case.sharpness();
+    [form_factor + turned, specular]
 }
 
 fn disk(case: &Case, center: glam::Vec3, half_x: glam::Vec3, half_y: glam::Vec3, value: f64) -> [f64; 2] {

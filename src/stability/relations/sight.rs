@@ -17,6 +17,8 @@ pub struct Sight {
     pub height: f64,
     /// Whether the foot of the perpendicular lies in the light.
     pub is_inside: bool,
+    /// Whether it lies in the light's convex hull.
+    pub is_surrounded: bool,
     /// Whether the light's plane is a coordinate plane, moved: its distance has no rounding.
     pub is_level: bool,
     /// Largest ratio of the distance of an edge's farther end to that of the edge.
@@ -50,6 +52,7 @@ impl Sight {
             distance: if is_inside { height } else { nearest },
             height,
             is_inside,
+            is_surrounded: is_inside || surround_foot(points, normal),
             is_level: level(|v| v.x) || level(|v| v.y) || level(|v| v.z),
             ratio: ratios.fold(1.0, f64::max),
             size: longest / farthest,
@@ -66,10 +69,24 @@ pub fn from_segment(a: DVec3, b: DVec3) -> f64 {
     (a + side * t).length()
 }
 
+/// Points in a plane of that normal.
+fn flattened(points: &[DVec3], normal: DVec3) -> Vec<[f64; 2]> {
+    let (x, y) = normal.any_orthonormal_pair();
+    points.iter().map(|point| [point.dot(x), point.dot(y)]).collect()
+}
+
+/// Whether no half-plane at the origin's foot on the plane holds all points.
+fn surround_foot(points: &[DVec3], normal: DVec3) -> bool {
+    let mut angles: Vec<f64> = flattened(points, normal).iter().map(|[x, y]| y.atan2(*x)).collect();
+    angles.sort_by(f64::total_cmp);
+    let around = angles.first().map(|first| first + core::f64::consts::TAU);
+    let gaps = angles.iter().zip(angles.iter().skip(1).copied().chain(around)).map(|(a, b)| b - a);
+    gaps.fold(0.0, f64::max) < core::f64::consts::PI
+}
+
 /// Whether the origin's foot on the plane lies inside, by the number of edges that a ray crosses.
 fn holds_foot(points: &[DVec3], normal: DVec3) -> bool {
-    let (x, y) = normal.any_orthonormal_pair();
-    let flat: Vec<[f64; 2]> = points.iter().map(|point| [point.dot(x), point.dot(y)]).collect();
+    let flat = flattened(points, normal);
     let edges = flat.iter().zip(flat.iter().cycle().skip(1));
     let crosses = |&(a, b): &(&[f64; 2], &[f64; 2])| {
         (a[1] > 0.0) != (b[1] > 0.0) && a[0] + (b[0] - a[0]) * (-a[1] / (b[1] - a[1])) > 0.0
