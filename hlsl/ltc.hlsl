@@ -658,13 +658,21 @@ static const float LTC_MEAN_SHIFT = 0.5;
 // Smallest length by which anything is divided; a reciprocal of it is still finite.
 static const float LTC_TINY = 1e-37;
 
-// Extent of a sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
+// Extent of a polygon, sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
 // reciprocal of it times an inverse root of LTC_TINY is finite, in whichever order a compiler takes a product.
 static const float LTC_SMALLEST = 1e-19;
 
 // Smallest square by which a tube's own directions are divided: several inverse roots of it in one product are finite,
 // in whichever order a compiler takes it.
 static const float LTC_TUBE_TINY = 1e-20;
+
+// Least depth of a cone, in units of the disk's distance and size together, squared. Products of its reciprocal and of inverse roots
+// of it with one of LTC_TINY are finite, in whichever order a compiler takes them.
+static const float LTC_SHALLOWEST = 1e-18;
+
+// Largest product of the reciprocal distances of two points of a disk's rim, in units of its distance and size together, for the
+// same reason.
+static const float LTC_NEAREST_PAIR = 1e18;
 
 // Factor on positions that leaves room for their differences, a power of two.
 static const float LTC_HEADROOM = 0.0625;
@@ -711,7 +719,7 @@ float ltc_extent(float3 v)
 float3 ltc_direction(float3 v)
 {
     const float _e1 = ltc_extent(v);
-    float3 scaled = (v * (1.0 / clamp(_e1, LTC_TINY, 8e37)));
+    float3 scaled = (v * (1.0 / clamp(_e1, 1e-35, 8e37)));
     return (scaled * rsqrt(max(dot(scaled, scaled), 0.001)));
 }
 
@@ -904,10 +912,11 @@ float3 ltc_all_around(LtcLobe lobe)
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_GGX) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || LTC_QUAD || LTC_TEXTURED
-// 1 over the length of `v`.
+// 1 over the length of `v`, at most 1e15: the product of two of them, times what rounding leaves of a cross product that
+// vanishes, has a square in range.
 float ltc_inverse_length(float3 v)
 {
-    return rsqrt(max(dot(v, v), LTC_TINY));
+    return rsqrt(max(dot(v, v), 1e-30));
 }
 #endif
 
@@ -1358,7 +1367,7 @@ float3 ltc_edge_about(float3 reference, float3 a, float3 a_offset, float3 b, flo
 // points are close. `reference` is the direction of `origin`.
 float3 ltc_offset(float3 origin, float3 reference, float3 target_point, float3 offset)
 {
-    float inverse_length = rsqrt(max(dot(target_point, target_point), LTC_TINY));
+    float inverse_length = rsqrt(max(dot(target_point, target_point), 1e-22));
     float length_sum = ((dot(target_point, target_point) * inverse_length) + dot(origin, reference));
     float length_difference = (dot(offset, (origin + target_point)) / max(length_sum, LTC_TINY));
     float3 near = ((offset - (reference * length_difference)) * inverse_length);
@@ -1945,8 +1954,8 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_10, float3 b_9, float3 c_4, 
         float4 leave_to = (up_c ? q_d : (up_b ? q_c : q_b));
         float4 leave_side = (leave_to - leave_from);
         float4 enter_side = (q_d - q_a);
-        float4 leave = (leave_from + (leave_side * ((base_height + leave_from.w) / max(-(leave_side.w), LTC_TINY))));
-        float4 enter = (q_a + (enter_side * ((base_height + q_a.w) / max(-(enter_side.w), LTC_TINY))));
+        float4 leave = (leave_from + (leave_side * saturate(((base_height + leave_from.w) / max(-(leave_side.w), LTC_TINY)))));
+        float4 enter = (q_a + (enter_side * saturate(((base_height + q_a.w) / max(-(enter_side.w), LTC_TINY)))));
         first = q_a;
         v_b = (up_b ? q_b : leave);
         v_c = (up_c ? q_c : leave);
@@ -1954,82 +1963,82 @@ LtcQuad ltc_quad_begin(LtcSurface surface, float3 a_10, float3 b_9, float3 c_4, 
         v_e = enter;
         if (distant_1) {
             first = (_e80 + q_a);
-            float4 _e198 = v_b;
-            v_b = (_e198 - q_a);
-            float4 _e200 = v_c;
-            v_c = (_e200 - q_a);
-            float4 _e202 = v_d;
-            v_d = (_e202 - q_a);
-            float4 _e204 = v_e;
-            v_e = (_e204 - q_a);
+            float4 _e200 = v_b;
+            v_b = (_e200 - q_a);
+            float4 _e202 = v_c;
+            v_c = (_e202 - q_a);
+            float4 _e204 = v_d;
+            v_d = (_e204 - q_a);
+            float4 _e206 = v_e;
+            v_e = (_e206 - q_a);
         }
     }
 #endif
-    float4 _e207 = first;
-    const float3 _e208 = ltc_rise_in_frame(surface, _e207);
-    quad.a = _e208;
-    float4 _e210 = v_b;
-    const float3 _e211 = ltc_rise_in_frame(surface, _e210);
-    quad.b = _e211;
-    float4 _e213 = v_c;
-    const float3 _e214 = ltc_rise_in_frame(surface, _e213);
-    quad.c = _e214;
-    float4 _e216 = v_d;
-    const float3 _e217 = ltc_rise_in_frame(surface, _e216);
-    quad.d = _e217;
-    float3 _e220 = quad.d;
-    quad.e = _e220;
-    bool _e224 = quad.clipped;
+    float4 _e209 = first;
+    const float3 _e210 = ltc_rise_in_frame(surface, _e209);
+    quad.a = _e210;
+    float4 _e212 = v_b;
+    const float3 _e213 = ltc_rise_in_frame(surface, _e212);
+    quad.b = _e213;
+    float4 _e215 = v_c;
+    const float3 _e216 = ltc_rise_in_frame(surface, _e215);
+    quad.c = _e216;
+    float4 _e218 = v_d;
+    const float3 _e219 = ltc_rise_in_frame(surface, _e218);
+    quad.d = _e219;
+    float3 _e222 = quad.d;
+    quad.e = _e222;
+    bool _e226 = quad.clipped;
 #if !LTC_CHEAP_HORIZON
-    if ((!(ltc_use_cheap_horizon) & _e224)) {
-        float4 _e227 = v_e;
-        const float3 _e228 = ltc_rise_in_frame(surface, _e227);
-        quad.e = _e228;
+    if ((!(ltc_use_cheap_horizon) & _e226)) {
+        float4 _e229 = v_e;
+        const float3 _e230 = ltc_rise_in_frame(surface, _e229);
+        quad.e = _e230;
     }
 #endif
     if (!(distant_1)) {
-        float4 _e231 = first;
-        float4 _e233 = v_b;
+        float4 _e233 = first;
         float4 _e235 = v_b;
-        float4 _e237 = first;
-        const float3 _e240 = ltc_edge_normal(_e231.xyz, _e233.xyz, (_e235.xyz - _e237.xyz));
-        const float3 _e241 = ltc_in_frame(surface, _e240);
-        quad.a_normal = _e241;
-        float4 _e243 = v_b;
-        float4 _e245 = v_c;
+        float4 _e237 = v_b;
+        float4 _e239 = first;
+        const float3 _e242 = ltc_edge_normal(_e233.xyz, _e235.xyz, (_e237.xyz - _e239.xyz));
+        const float3 _e243 = ltc_in_frame(surface, _e242);
+        quad.a_normal = _e243;
+        float4 _e245 = v_b;
         float4 _e247 = v_c;
-        float4 _e249 = v_b;
-        const float3 _e252 = ltc_edge_normal(_e243.xyz, _e245.xyz, (_e247.xyz - _e249.xyz));
-        const float3 _e253 = ltc_in_frame(surface, _e252);
-        quad.b_normal = _e253;
-        float4 _e255 = v_c;
-        float4 _e257 = v_d;
+        float4 _e249 = v_c;
+        float4 _e251 = v_b;
+        const float3 _e254 = ltc_edge_normal(_e245.xyz, _e247.xyz, (_e249.xyz - _e251.xyz));
+        const float3 _e255 = ltc_in_frame(surface, _e254);
+        quad.b_normal = _e255;
+        float4 _e257 = v_c;
         float4 _e259 = v_d;
-        float4 _e261 = v_c;
-        const float3 _e264 = ltc_edge_normal(_e255.xyz, _e257.xyz, (_e259.xyz - _e261.xyz));
-        const float3 _e265 = ltc_in_frame(surface, _e264);
-        quad.c_normal = _e265;
-        float4 _e267 = v_e;
-        float4 _e269 = first;
+        float4 _e261 = v_d;
+        float4 _e263 = v_c;
+        const float3 _e266 = ltc_edge_normal(_e257.xyz, _e259.xyz, (_e261.xyz - _e263.xyz));
+        const float3 _e267 = ltc_in_frame(surface, _e266);
+        quad.c_normal = _e267;
+        float4 _e269 = v_e;
         float4 _e271 = first;
-        float4 _e273 = v_e;
-        const float3 _e276 = ltc_edge_normal(_e267.xyz, _e269.xyz, (_e271.xyz - _e273.xyz));
-        const float3 _e277 = ltc_in_frame(surface, _e276);
-        quad.e_normal = _e277;
-        bool _e281 = quad.clipped;
+        float4 _e273 = first;
+        float4 _e275 = v_e;
+        const float3 _e278 = ltc_edge_normal(_e269.xyz, _e271.xyz, (_e273.xyz - _e275.xyz));
+        const float3 _e279 = ltc_in_frame(surface, _e278);
+        quad.e_normal = _e279;
+        bool _e283 = quad.clipped;
 #if !LTC_CHEAP_HORIZON
-        if ((!(ltc_use_cheap_horizon) & _e281)) {
-            float4 _e285 = v_d;
-            float4 _e287 = v_e;
+        if ((!(ltc_use_cheap_horizon) & _e283)) {
+            float4 _e287 = v_d;
             float4 _e289 = v_e;
-            float4 _e291 = v_d;
-            const float3 _e294 = ltc_edge_normal(_e285.xyz, _e287.xyz, (_e289.xyz - _e291.xyz));
-            quad.rim = dot(surface.normal, _e294);
+            float4 _e291 = v_e;
+            float4 _e293 = v_d;
+            const float3 _e296 = ltc_edge_normal(_e287.xyz, _e289.xyz, (_e291.xyz - _e293.xyz));
+            quad.rim = dot(surface.normal, _e296);
         }
 #endif
     }
-    LtcQuad _e296 = quad;
-    const LtcQuad ltcquad_4 = _e296;
+    LtcQuad _e298 = quad;
+    const LtcQuad ltcquad_4 = _e298;
     return ltcquad_4;
 }
 #endif
@@ -2421,7 +2430,7 @@ LtcOutline ltc_outline_begin(LtcSurface surface, float3 corner)
     float3 to_first = ((corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
     outline.first = corner;
     const float _e11 = ltc_extent(to_first);
-    outline.scale = (1.0 / max(_e11, LTC_TINY));
+    outline.scale = (1.0 / max(_e11, LTC_SMALLEST));
     outline.first_up = (dot(surface.normal, to_first) > 0.0);
     bool _e23 = outline.first_up;
     outline.previous_up = _e23;
@@ -2481,7 +2490,7 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
     const float _e19 = ltc_extent((b_far - origin));
     float extent = max(_e17, _e19);
     float _e22 = outline.scale;
-    float scale_3 = min(_e22, (100000000.0 / max(extent, 1e-29)));
+    float scale_3 = min(_e22, (100000000.0 / max(extent, 1e-11)));
     float3 reference_7 = ((first_far - origin) * scale_3);
     float3 a = ((a_far - origin) * scale_3);
     float3 b = ((b_far - origin) * scale_3);
@@ -3103,8 +3112,8 @@ LtcTube ltc_tube_begin(LtcSurface surface, float3 start_3, float3 end_3, float r
     tube.end_weight = 0.0;
 #if LTC_CAPS
     if ((ltc_use_caps & caps)) {
-        float a_inverse = rsqrt(max(max(a_squared, (r * r)), LTC_TINY));
-        float b_inverse = rsqrt(max(max(b_squared, (r * r)), LTC_TINY));
+        float a_inverse = rsqrt(max(max(a_squared, (r * r)), LTC_TUBE_TINY));
+        float b_inverse = rsqrt(max(max(b_squared, (r * r)), LTC_TUBE_TINY));
         float farther = ((max(b_squared, (r * r)) * b_inverse) - (max(a_squared, (r * r)) * a_inverse));
         float turned = (sine_5 * clamp((farther / max(full_length, LTC_TINY)), -1.0, 1.0));
         float reach = min(r, full_length);
@@ -3784,7 +3793,7 @@ LtcCone ltc_cone(float3 half_x_1, float3 half_y_1, float size, float3 centre_1, 
     float long_square = dot(longest, longest);
     float long_inverse = rsqrt(max(long_square, LTC_TINY));
     float normal_square = dot(normal, normal);
-    float normal_inverse = rsqrt(max(normal_square, LTC_TINY));
+    float normal_inverse = rsqrt(max(normal_square, 1e-30));
     float aspect = min((((normal_square * normal_inverse) * long_inverse) * long_inverse), 1.0);
     float long_half = ((size * long_square) * long_inverse);
     cone.scale = rsqrt(max((dot(centre_1, centre_1) + (long_half * long_half)), LTC_TINY));
@@ -3806,11 +3815,11 @@ LtcCone ltc_cone(float3 half_x_1, float3 half_y_1, float size, float3 centre_1, 
     float _e78 = cone.scale;
     cone.place = float3(dot(_e67, _e69), dot(_e72, _e74), ((volume * normal_inverse) * _e78));
     float _e82 = cone.scale;
-    float a = (long_half * _e82);
+    float a = min((long_half * _e82), 1.0);
     float b = (a * aspect);
-    float3 _e86 = cone.place;
     float3 _e88 = cone.place;
-    float3 p = (_e86 * _e88);
+    float3 _e90 = cone.place;
+    float3 p = (_e88 * _e90);
     float2 s = float2((a * a), (b * b));
     cone.first_square = s.x;
     cone.second_square = s.y;
@@ -3822,51 +3831,51 @@ LtcCone ltc_cone(float3 half_x_1, float3 half_y_1, float size, float3 centre_1, 
     float middle = (0.5 * ((weight + p.z) - pole));
     float under = ((middle * middle) + (p.z * pole));
     float root = (under * rsqrt(max(under, LTC_TINY)));
-    float lowest = ((middle > 0.0) ? (middle + root) : ((p.z * pole) / max((root - middle), LTC_TINY)));
+    float lowest = ((middle > 0.0) ? (middle + root) : (p.z * min((pole / max((root - middle), LTC_TINY)), 1e19)));
     float highest = ((p.x + p.y) + p.z);
     float quadratic = ((s.x + s.y) - highest);
     float linear_1 = ((s.y * ((s.x - p.x) - p.z)) - (s.x * (p.y + p.z)));
     float absolute = ((-(p.z) * s.x) * s.y);
     depth = lowest;
     if ((aspect < 0.9999)) {
-        float _e173 = depth;
-        const float _e174 = ltc_cone_step(_e173, quadratic, linear_1, absolute);
-        depth = min(max(_e174, lowest), highest);
         float _e177 = depth;
         const float _e178 = ltc_cone_step(_e177, quadratic, linear_1, absolute);
         depth = min(max(_e178, lowest), highest);
         float _e181 = depth;
         const float _e182 = ltc_cone_step(_e181, quadratic, linear_1, absolute);
         depth = min(max(_e182, lowest), highest);
+        float _e185 = depth;
+        const float _e186 = ltc_cone_step(_e185, quadratic, linear_1, absolute);
+        depth = min(max(_e186, lowest), highest);
     }
-    float _e186 = depth;
-    cone.depth = max(_e186, LTC_TINY);
-    float _e191 = cone.depth;
-    float inverse_x = (1.0 / max((s.x + _e191), LTC_TINY));
-    float _e199 = cone.depth;
-    float inverse_y = (1.0 / max((s.y + _e199), LTC_TINY));
+    float _e190 = depth;
+    cone.depth = max(_e190, LTC_SHALLOWEST);
+    float _e195 = cone.depth;
+    float inverse_x = (1.0 / (s.x + _e195));
+    float _e201 = cone.depth;
+    float inverse_y = (1.0 / (s.y + _e201));
     float _e207 = cone.place.x;
     float _e209 = cone.depth;
-    float _e214 = cone.place.y;
-    float _e216 = cone.depth;
-    float _e221 = cone.place.z;
-    float3 toward = float3(((_e207 * _e209) * inverse_x), ((_e214 * _e216) * inverse_y), _e221);
-    cone.nearness = rsqrt(max(dot(toward, toward), LTC_TINY));
-    float _e230 = cone.nearness;
-    cone.axis = (toward * _e230);
-    float _e234 = cone.depth;
+    float _e216 = cone.place.y;
+    float _e218 = cone.depth;
+    float _e225 = cone.place.z;
+    float3 toward = float3((_e207 * min((_e209 * inverse_x), 1.0)), (_e216 * min((_e218 * inverse_y), 1.0)), _e225);
+    cone.nearness = rsqrt(max(dot(toward, toward), 1e-30));
+    float _e234 = cone.nearness;
+    cone.axis = (toward * _e234);
     float _e238 = cone.depth;
-    float spread = rsqrt(max(((s.x + _e234) * (s.y + _e238)), LTC_TINY));
-    float _e247 = cone.place.z;
-    float _e249 = cone.nearness;
-    cone.whole = min(((_e247 * _e249) * ((a * b) * spread)), 1.0);
-    float _e259 = cone.place.x;
-    float _e265 = cone.place.y;
-    float2 pierced = float2(((-(a) * _e259) * inverse_x), ((-(b) * _e265) * inverse_y));
+    float _e242 = cone.depth;
+    float spread = rsqrt(((s.x + _e238) * (s.y + _e242)));
+    float _e249 = cone.place.z;
+    float _e251 = cone.nearness;
+    cone.whole = min(((_e249 * _e251) * ((a * b) * spread)), 1.0);
+    float _e261 = cone.place.x;
+    float _e267 = cone.place.y;
+    float2 pierced = float2(((-(a) * _e261) * inverse_x), ((-(b) * _e267) * inverse_y));
     cone.pierced_x = ((pierced.x * _e12.x) - (pierced.y * _e12.y));
     cone.pierced_y = ((pierced.x * _e12.y) + (pierced.y * _e12.x));
-    LtcCone _e285 = cone;
-    const LtcCone ltccone = _e285;
+    LtcCone _e287 = cone;
+    const LtcCone ltccone = _e287;
     return ltccone;
 }
 #endif
@@ -3896,6 +3905,14 @@ float3 ltc_cone_point(LtcCone cone, float2 p)
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
+// A cut's moment in a cone's units, where it is at most 1 but for rounding.
+float ltc_cone_moment(LtcCone cone, LtcCut cut)
+{
+    return min((cut.moment * (cone.scale * cone.scale)), 2.0);
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // Cosine between the cone's axis and a plane's normal.
 float ltc_cone_tilt(LtcCone cone, LtcCut cut)
 {
@@ -3917,9 +3934,9 @@ LtcAcross ltc_cone_across(LtcCone cone)
     float a_square = cone.first_square;
     float b_square = cone.second_square;
     float3 w = float3((a_square + cone.depth), (b_square + cone.depth), cone.depth);
-    float3 inverse_root = float3(rsqrt(max(w.x, LTC_TINY)), rsqrt(max(w.y, LTC_TINY)), rsqrt(w.z));
+    float3 inverse_root = rsqrt(w);
     float3 weighted = (cone.place * inverse_root);
-    float3 g = (weighted * rsqrt(max(dot(weighted, weighted), LTC_TINY)));
+    float3 g = (weighted * rsqrt(max(dot(weighted, weighted), 1e-6)));
     float q = (-1.0 / (1.0 + g.z));
     float3 u = float3((1.0 + ((g.x * g.x) * q)), ((g.x * g.y) * q), -(g.x));
     float3 v = float3(((g.x * g.y) * q), (1.0 + ((g.y * g.y) * q)), -(g.y));
@@ -3927,18 +3944,18 @@ LtcAcross ltc_cone_across(LtcCone cone)
     float v_square = (((a_square * v.x) * v.x) + ((b_square * v.y) * v.y));
     float product = (((a_square * u.x) * v.x) + ((b_square * u.y) * v.y));
     float scale = (1.0 / max((u_square + v_square), LTC_TINY));
-    const float2 _e95 = ltc_half_turn(((0.5 * scale) * (u_square - v_square)), (scale * product));
-    float3 wide = ((u * _e95.x) + (v * _e95.y));
+    const float2 _e88 = ltc_half_turn(((0.5 * scale) * (u_square - v_square)), clamp((scale * product), -1.0, 1.0));
+    float3 wide = ((u * _e88.x) + (v * _e88.y));
     float3 first_7 = ((wide * w) * inverse_root);
     across.first = (first_7 * rsqrt(max(dot(first_7, first_7), LTC_TINY)));
     across.first_value = (((a_square * wide.x) * wide.x) + ((b_square * wide.y) * wide.y));
-    float3 _e123 = across.first;
-    across.second = cross(cone.axis, _e123);
-    float _e127 = across.first_value;
-    float _e137 = across.first_value;
-    across.second_value = min(((a_square * (b_square / max(_e127, LTC_TINY))) * (g.z * g.z)), _e137);
-    LtcAcross _e139 = across;
-    const LtcAcross ltcacross = _e139;
+    float3 _e116 = across.first;
+    across.second = cross(cone.axis, _e116);
+    float _e120 = across.first_value;
+    float _e132 = across.first_value;
+    across.second_value = min(((a_square * min((b_square / max(_e120, LTC_TINY)), 1.0)) * (g.z * g.z)), _e132);
+    LtcAcross _e134 = across;
+    const LtcAcross ltcacross = _e134;
     return ltcacross;
 }
 #endif
@@ -3984,24 +4001,25 @@ float4 ltc_cone_part(LtcCone cone, LtcAcross across, LtcCut cut)
     float3 end_point = (_e6 - along);
     float start_inverse = rsqrt(max(dot(start_point, start_point), LTC_TINY));
     float end_inverse = rsqrt(max(dot(end_point, end_point), LTC_TINY));
-    float both = (start_inverse * end_inverse);
+    float both = min((start_inverse * end_inverse), LTC_NEAREST_PAIR);
     float3 start = (start_point * start_inverse);
     float3 end = (end_point * end_inverse);
-    float sine = min(((((2.0 * cut.reach) * cut.moment) * (cone.scale * cone.scale)) * both), 1.0);
+    const float _e36 = ltc_cone_moment(cone, cut);
+    float sine = min((((2.0 * cut.reach) * _e36) * both), 1.0);
     float3 side = (start - end);
     float far_k = (0.5 * dot(side, side));
     float k = ((far_k > 1.0) ? far_k : ((sine * sine) / max((2.0 - far_k), 1.0)));
-    const float _e60 = ltc_angle_excess(min(k, saturate((2.0 - k))));
-    float excess = (sine * _e60);
+    const float _e58 = ltc_angle_excess(min(k, saturate((2.0 - k))));
+    float excess = (sine * _e58);
     float rest = ((k > 1.0) ? ((LTC_PI - (2.0 * sine)) - excess) : excess);
-    const float _e70 = ltc_cone_tilt(cone, cut);
-    const float3 _e72 = ltc_cone_inward(cone, cut.normal);
-    float3 normal_16 = float3(dot(_e72, across.first), dot(_e72, across.second), _e70);
-    const float3 _e86 = ltc_cone_sweep(cone, across, normal_16, sine, k, (((2.0 * cut.reach) * cut.reach) * both), (_e70 >= 0.0), rest);
-    float3 sum = float3(_e86.xy, (_e86.z + (_e70 * (rest + sine))));
+    const float _e68 = ltc_cone_tilt(cone, cut);
+    const float3 _e70 = ltc_cone_inward(cone, cut.normal);
+    float3 normal_16 = float3(dot(_e70, across.first), dot(_e70, across.second), _e68);
+    const float3 _e84 = ltc_cone_sweep(cone, across, normal_16, sine, k, (((2.0 * cut.reach) * cut.reach) * both), (_e68 >= 0.0), rest);
+    float3 sum = float3(_e84.xy, (_e84.z + (_e68 * (rest + sine))));
     float3 turned = (((across.first * sum.x) + (across.second * sum.y)) + (cone.axis * sum.z));
-    const float3 _e104 = ltc_cone_outward(cone, turned);
-    return float4(_e104, dot(normal_16, sum));
+    const float3 _e102 = ltc_cone_outward(cone, turned);
+    return float4(_e102, dot(normal_16, sum));
 }
 #endif
 
@@ -4023,9 +4041,10 @@ float3 ltc_cone_chord(LtcCone cone, LtcCut cut, float2 start, float2 end)
     float b_inverse = rsqrt(max(dot(_e5, _e5), LTC_TINY));
     float2 along = (end - start);
     float square = dot(along, along);
-    float sine = ((((square * rsqrt(max(square, LTC_TINY))) * cut.moment) * (cone.scale * cone.scale)) * (a_inverse * b_inverse));
-    const float _e31 = ltc_angle((_e4 * a_inverse), (_e5 * b_inverse), sine);
-    return (cut.normal * _e31);
+    const float _e20 = ltc_cone_moment(cone, cut);
+    float sine = (((square * rsqrt(max(square, LTC_TINY))) * _e20) * min((a_inverse * b_inverse), LTC_NEAREST_PAIR));
+    const float _e29 = ltc_angle((_e4 * a_inverse), (_e5 * b_inverse), sine);
+    return (cut.normal * _e29);
 }
 #endif
 
@@ -4038,20 +4057,20 @@ float3 ltc_cone_arc(LtcCone cone, LtcAcross across, float2 start, float2 end, bo
     const float3 _e6 = ltc_cone_point(cone, end);
     float a_inverse = rsqrt(max(dot(_e5, _e5), LTC_TINY));
     float b_inverse = rsqrt(max(dot(_e6, _e6), LTC_TINY));
-    float both = (a_inverse * b_inverse);
+    float both = min((a_inverse * b_inverse), LTC_NEAREST_PAIR);
     float2 back = (start - end);
     float back_square = dot(back, back);
-    const float3 _e25 = ltc_edge_normal(_e6, _e5, ((cone.half_x * back.x) + (cone.half_y * back.y)));
-    const float3 _e26 = ltc_cone_inward(cone, _e25);
-    float product_square = dot(_e26, _e26);
+    const float3 _e27 = ltc_edge_normal(_e6, _e5, ((cone.half_x * back.x) + (cone.half_y * back.y)));
+    const float3 _e28 = ltc_cone_inward(cone, _e27);
+    float product_square = dot(_e28, _e28);
     float product_inverse = rsqrt(max(product_square, LTC_TINY));
-    float3 normal = (float3(dot(_e26, across.first), dot(_e26, across.second), dot(_e26, cone.axis)) * product_inverse);
+    float3 normal = (float3(dot(_e28, across.first), dot(_e28, across.second), dot(_e28, cone.axis)) * product_inverse);
     float sine = min(((product_square * product_inverse) * both), 1.0);
     float3 side = ((_e5 * a_inverse) - (_e6 * b_inverse));
     bool large = ((back_square < 1e-9) ? nearly_full : (normal.z >= 0.0));
-    const float3 _e59 = ltc_cone_sweep(cone, across, normal, sine, (0.5 * dot(side, side)), ((0.5 * back_square) * both), large, -(sine));
-    const float3 _e71 = ltc_cone_outward(cone, (((across.first * _e59.x) + (across.second * _e59.y)) + (cone.axis * _e59.z)));
-    return _e71;
+    const float3 _e61 = ltc_cone_sweep(cone, across, normal, sine, (0.5 * dot(side, side)), ((0.5 * back_square) * both), large, -(sine));
+    const float3 _e73 = ltc_cone_outward(cone, (((across.first * _e61.x) + (across.second * _e61.y)) + (cone.axis * _e61.z)));
+    return _e73;
 }
 #endif
 
@@ -4145,7 +4164,7 @@ float ltc_disk_diffuse(LtcDisk disk)
 // The vector form factor of a disk in a lobe's space, cut at both horizons, towards the light.
 float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
 {
-    LtcCut cut_5 = (LtcCut)0;
+    LtcCut cut_6 = (LtcCut)0;
     float3 sum = (float3)0;
 
     if (!(disk.reaches)) {
@@ -4170,25 +4189,25 @@ float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
     const float3 _e49 = ltc_transform_normal(lobe, disk.cut.normal);
     float horizon_square = dot(_e49, _e49);
     float horizon_inverse = rsqrt(max(horizon_square, LTC_TINY));
-    cut_5 = disk.cut;
-    cut_5.normal = (_e49 * horizon_inverse);
-    float _e60 = cut_5.height;
-    cut_5.height = (_e60 * (volume_3 * horizon_inverse));
-    float _e65 = cut_5.steepness;
-    cut_5.steepness = (_e65 * (volume_3 * horizon_inverse));
-    float _e70 = cut_5.moment;
-    cut_5.moment = (_e70 * (horizon_square * horizon_inverse));
+    cut_6 = disk.cut;
+    cut_6.normal = (_e49 * horizon_inverse);
+    float _e60 = cut_6.height;
+    cut_6.height = (_e60 * (volume_3 * horizon_inverse));
+    float _e65 = cut_6.steepness;
+    cut_6.steepness = (_e65 * (volume_3 * horizon_inverse));
+    float _e70 = cut_6.moment;
+    cut_6.moment = (_e70 * (horizon_square * horizon_inverse));
     bool twice = (disk.clipped & own_clips);
-    float2 _e77 = cut_5.toward;
+    float2 _e77 = cut_6.toward;
     float2 apart = (_e17.toward - _e77);
-    float2 _e81 = cut_5.toward;
+    float2 _e81 = cut_6.toward;
     float2 along = (_e17.toward + _e81);
-    float _e85 = cut_5.offset;
+    float _e85 = cut_6.offset;
     float difference = (_e17.offset - _e85);
-    float _e89 = cut_5.offset;
+    float _e89 = cut_6.offset;
     float total = (_e17.offset + _e89);
-    float _e93 = cut_5.reach;
-    float _e97 = cut_5.reach;
+    float _e93 = cut_6.reach;
+    float _e97 = cut_6.reach;
     float reaches = ((_e17.reach - _e93) * (_e17.reach - _e97));
     bool nested = (((difference * difference) + reaches) >= dot(apart, apart));
     bool opposite = ((((total * total) + reaches) >= dot(along, along)) & !(nested));
@@ -4197,15 +4216,15 @@ float3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe)
     }
     const LtcAcross _e116 = ltc_cone_across(_e31);
     if ((twice & !((nested | opposite)))) {
-        LtcCut _e121 = cut_5;
+        LtcCut _e121 = cut_6;
         const float3 _e122 = ltc_cone_between(_e31, _e116, _e121, _e17);
         sum = _e122;
     } else {
         bool own_counts = (own_clips & (!(disk.clipped) | (nested & (difference >= 0.0))));
         if (own_counts) {
-            cut_5 = _e17;
+            cut_6 = _e17;
         }
-        LtcCut _e130 = cut_5;
+        LtcCut _e130 = cut_6;
         const float4 _e131 = ltc_cone_part(_e31, _e116, _e130);
         sum = _e131.xyz;
         if ((twice & opposite)) {
@@ -4337,11 +4356,14 @@ LtcSphere ltc_sphere_begin(LtcSurface surface, float3 centre_4, float radius)
     disk_4.clipped = (_e96 > -1.0);
     bool _e101 = sphere.inside;
     float _e104 = disk_4.cut.offset;
-    disk_4.reaches = (_e101 | ((_e104 < 1.0) & (cosine > 0.0)));
-    LtcDisk _e112 = disk_4;
-    sphere.disk = _e112;
-    LtcSphere _e113 = sphere;
-    const LtcSphere ltcsphere = _e113;
+    disk_4.reaches = ((_e101 | ((_e104 < 1.0) & (cosine > 0.0))) & (ball > 0.0));
+    bool _e116 = sphere.inside;
+    bool _e118 = disk_4.reaches;
+    sphere.inside = (_e116 & _e118);
+    LtcDisk _e121 = disk_4;
+    sphere.disk = _e121;
+    LtcSphere _e122 = sphere;
+    const LtcSphere ltcsphere = _e122;
     return ltcsphere;
 }
 #endif

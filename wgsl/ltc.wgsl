@@ -108,13 +108,21 @@ const LTC_MEAN_SHIFT: f32 = 0.5;
 /// Smallest length by which anything is divided; a reciprocal of it is still finite.
 const LTC_TINY: f32 = 1e-37;
 
-/// Extent of a sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
+/// Extent of a polygon, sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
 /// reciprocal of it times an inverse root of LTC_TINY is finite, in whichever order a compiler takes a product.
 const LTC_SMALLEST: f32 = 1e-19;
 
 /// Smallest square by which a tube's own directions are divided: several inverse roots of it in one product are finite,
 /// in whichever order a compiler takes it.
 const LTC_TUBE_TINY: f32 = 1e-20;
+
+/// Least depth of a cone, in units of the disk's distance and size together, squared. Products of its reciprocal and of inverse roots
+/// of it with one of LTC_TINY are finite, in whichever order a compiler takes them.
+const LTC_SHALLOWEST: f32 = 1e-18;
+
+/// Largest product of the reciprocal distances of two points of a disk's rim, in units of its distance and size together, for the
+/// same reason.
+const LTC_NEAREST_PAIR: f32 = 1e18;
 
 /// Factor on positions that leaves room for their differences, a power of two.
 const LTC_HEADROOM: f32 = 0.0625;
@@ -189,7 +197,7 @@ fn ltc_extent(v: vec3<f32>) -> f32 {
 /// Zero for a zero vector.
 fn ltc_direction(v: vec3<f32>) -> vec3<f32> {
     // The reciprocal of anything larger would be subnormal, which a device may take for zero.
-    let scaled = v * (1.0 / clamp(ltc_extent(v), LTC_TINY, 8e37));
+    let scaled = v * (1.0 / clamp(ltc_extent(v), 1e-35, 8e37));
     // The square is 1 to 3, and less for a subnormal vector alone. So the product of the two factors is finite, which a compiler
     // may take first.
     return scaled * inverseSqrt(max(dot(scaled, scaled), 1e-3));
@@ -617,7 +625,8 @@ fn ltc_edge_excess(a: vec3<f32>, chord: vec3<f32>) -> vec3<f32> {
 /// relative precision of `offset`: the two unit vectors themselves differ by rounding alone when the
 /// points are close. `reference` is the direction of `origin`.
 fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, target_point: vec3<f32>, offset: vec3<f32>) -> vec3<f32> {
-    let inverse_length = inverseSqrt(max(dot(target_point, target_point), LTC_TINY));
+    // Bounded, so that cubes of what becomes of a point that is lost in the rounding of far ones stay in range.
+    let inverse_length = inverseSqrt(max(dot(target_point, target_point), 1e-22));
     let length_sum = dot(target_point, target_point) * inverse_length + dot(origin, reference);
     let length_difference = dot(offset, origin + target_point) / max(length_sum, LTC_TINY);
     let near = (offset - reference * length_difference) * inverse_length;
@@ -699,9 +708,10 @@ fn ltc_edge_turn(cosine: f32, weight: f32, normal: vec3<f32>) -> f32 {
     return select(0.0, LTC_PI * ltc_inverse_length(normal) - 2.0 * weight, cosine < 0.0);
 }
 
-/// 1 over the length of `v`.
+/// 1 over the length of `v`, at most 1e15: the product of two of them, times what rounding leaves of a cross product that
+/// vanishes, has a square in range.
 fn ltc_inverse_length(v: vec3<f32>) -> f32 {
-    return inverseSqrt(max(dot(v, v), LTC_TINY));
+    return inverseSqrt(max(dot(v, v), 1e-30));
 }
 
 /// Vector form factor, times 2 pi and signed, of a quad, or of a pentagon with `five`; without it `e` is `d`. Each
@@ -1035,8 +1045,9 @@ fn ltc_quad_begin(surface: LtcSurface, a: vec3<f32>, b: vec3<f32>, c: vec3<f32>,
         let leave_to = select(select(q_b, q_c, up_b), q_d, up_c);
         let leave_side = leave_to - leave_from;
         let enter_side = q_d - q_a;
-        let leave = leave_from + leave_side * ((base_height + leave_from.w) / max(-leave_side.w, LTC_TINY));
-        let enter = q_a + enter_side * ((base_height + q_a.w) / max(-enter_side.w, LTC_TINY));
+        // Between the ends, also where a compiler rounds one height in two ways.
+        let leave = leave_from + leave_side * saturate((base_height + leave_from.w) / max(-leave_side.w, LTC_TINY));
+        let enter = q_a + enter_side * saturate((base_height + q_a.w) / max(-enter_side.w, LTC_TINY));
         first = q_a;
         v_b = select(leave, q_b, up_b);
         v_c = select(leave, q_c, up_c);
@@ -1349,7 +1360,7 @@ fn ltc_outline_begin(surface: LtcSurface, corner: vec3<f32>) -> LtcOutline {
     let to_first = (corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM);
     var outline: LtcOutline;
     outline.first = corner;
-    outline.scale = 1.0 / max(ltc_extent(to_first), LTC_TINY);
+    outline.scale = 1.0 / max(ltc_extent(to_first), LTC_SMALLEST);
     outline.first_up = dot(surface.normal, to_first) > 0.0;
     outline.previous_up = outline.first_up;
     outline.previous = corner;
@@ -1368,7 +1379,7 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
     let b_far = corner * LTC_HEADROOM;
     // Lengths in units of the distance to the first vertex, but below 1e8 of anything, so that squares of areas are finite.
     let extent = max(ltc_extent(a_far - origin), ltc_extent(b_far - origin));
-    let scale = min((*outline).scale, 1e8 / max(extent, 1e-29));
+    let scale = min((*outline).scale, 1e8 / max(extent, 1e-11));
     let reference = (first_far - origin) * scale;
     let a = (a_far - origin) * scale;
     let b = (b_far - origin) * scale;
@@ -1837,8 +1848,8 @@ fn ltc_tube_begin(surface: LtcSurface, start: vec3<f32>, end: vec3<f32>, radius:
     if (ltc_use_caps & caps) {
         // The outline of a capsule has half a disk at each end, but more of the nearer one and less of the other:
         // its straight parts meet the two disks where both have the same tangent.
-        let a_inverse = inverseSqrt(max(max(a_squared, r * r), LTC_TINY));
-        let b_inverse = inverseSqrt(max(max(b_squared, r * r), LTC_TINY));
+        let a_inverse = inverseSqrt(max(max(a_squared, r * r), LTC_TUBE_TINY));
+        let b_inverse = inverseSqrt(max(max(b_squared, r * r), LTC_TUBE_TINY));
         let farther = max(b_squared, r * r) * b_inverse - max(a_squared, r * r) * a_inverse;
         let turned = sine * clamp(farther / max(full_length, LTC_TINY), -1.0, 1.0);
         let reach = min(r, full_length);
@@ -2515,7 +2526,7 @@ fn ltc_cone(half_x: vec3<f32>, half_y: vec3<f32>, size: f32, centre: vec3<f32>, 
     let long_square = dot(longest, longest);
     let long_inverse = inverseSqrt(max(long_square, LTC_TINY));
     let normal_square = dot(normal, normal);
-    let normal_inverse = inverseSqrt(max(normal_square, LTC_TINY));
+    let normal_inverse = inverseSqrt(max(normal_square, 1e-30));
     let aspect = min(normal_square * normal_inverse * long_inverse * long_inverse, 1.0);
     let long_half = size * long_square * long_inverse;
     var cone: LtcCone;
@@ -2527,7 +2538,7 @@ fn ltc_cone(half_x: vec3<f32>, half_y: vec3<f32>, size: f32, centre: vec3<f32>, 
     cone.half_y = half_y * (size * cone.scale);
     cone.centre = centre * cone.scale;
     cone.place = vec3<f32>(dot(cone.centre, cone.first), dot(cone.centre, cone.second), volume * normal_inverse * cone.scale);
-    let a = long_half * cone.scale;
+    let a = min(long_half * cone.scale, 1.0);
     let b = a * aspect;
     let p = cone.place * cone.place;
     let s = vec2<f32>(a * a, b * b);
@@ -2544,7 +2555,7 @@ fn ltc_cone(half_x: vec3<f32>, half_y: vec3<f32>, size: f32, centre: vec3<f32>, 
     let middle = 0.5 * (weight + p.z - pole);
     let under = middle * middle + p.z * pole;
     let root = under * inverseSqrt(max(under, LTC_TINY));
-    let lowest = select(p.z * pole / max(root - middle, LTC_TINY), middle + root, middle > 0.0);
+    let lowest = select(p.z * min(pole / max(root - middle, LTC_TINY), 1e19), middle + root, middle > 0.0);
     let highest = p.x + p.y + p.z;
     let quadratic = s.x + s.y - highest;
     let linear = s.y * (s.x - p.x - p.z) - s.x * (p.y + p.z);
@@ -2556,14 +2567,15 @@ fn ltc_cone(half_x: vec3<f32>, half_y: vec3<f32>, size: f32, centre: vec3<f32>, 
         depth = min(max(ltc_cone_step(depth, quadratic, linear, absolute), lowest), highest);
         depth = min(max(ltc_cone_step(depth, quadratic, linear, absolute), lowest), highest);
     }
-    cone.depth = max(depth, LTC_TINY);
+    cone.depth = max(depth, LTC_SHALLOWEST);
 
-    let inverse_x = 1.0 / max(s.x + cone.depth, LTC_TINY);
-    let inverse_y = 1.0 / max(s.y + cone.depth, LTC_TINY);
-    let toward = vec3<f32>(cone.place.x * cone.depth * inverse_x, cone.place.y * cone.depth * inverse_y, cone.place.z);
-    cone.nearness = inverseSqrt(max(dot(toward, toward), LTC_TINY));
+    let inverse_x = 1.0 / (s.x + cone.depth);
+    let inverse_y = 1.0 / (s.y + cone.depth);
+    // Bounded, so that a product with the reciprocal of their length is finite in any order.
+    let toward = vec3<f32>(cone.place.x * min(cone.depth * inverse_x, 1.0), cone.place.y * min(cone.depth * inverse_y, 1.0), cone.place.z);
+    cone.nearness = inverseSqrt(max(dot(toward, toward), 1e-30));
     cone.axis = toward * cone.nearness;
-    let spread = inverseSqrt(max((s.x + cone.depth) * (s.y + cone.depth), LTC_TINY));
+    let spread = inverseSqrt((s.x + cone.depth) * (s.y + cone.depth));
     cone.whole = min(cone.place.z * cone.nearness * (a * b * spread), 1.0);
     let pierced = vec2<f32>(-a * cone.place.x * inverse_x, -b * cone.place.y * inverse_y);
     cone.pierced_x = pierced.x * turn.x - pierced.y * turn.y;
@@ -2586,6 +2598,11 @@ fn ltc_cone_point(cone: LtcCone, p: vec2<f32>) -> vec3<f32> {
     return cone.centre + cone.half_x * p.x + cone.half_y * p.y;
 }
 
+/// A cut's moment in a cone's units, where it is at most 1 but for rounding.
+fn ltc_cone_moment(cone: LtcCone, cut: LtcCut) -> f32 {
+    return min(cut.moment * (cone.scale * cone.scale), 2.0);
+}
+
 /// Cosine between the cone's axis and a plane's normal.
 fn ltc_cone_tilt(cone: LtcCone, cut: LtcCut) -> f32 {
     // A distant light's from the heights over the plane, which keep their digits on the horizon.
@@ -2601,9 +2618,9 @@ fn ltc_cone_across(cone: LtcCone) -> LtcAcross {
     let a_square = cone.first_square;
     let b_square = cone.second_square;
     let w = vec3<f32>(a_square + cone.depth, b_square + cone.depth, cone.depth);
-    let inverse_root = vec3<f32>(inverseSqrt(max(w.x, LTC_TINY)), inverseSqrt(max(w.y, LTC_TINY)), inverseSqrt(w.z));
+    let inverse_root = inverseSqrt(w);
     let weighted = cone.place * inverse_root;
-    let g = weighted * inverseSqrt(max(dot(weighted, weighted), LTC_TINY));
+    let g = weighted * inverseSqrt(max(dot(weighted, weighted), 1e-6));
     let q = -1.0 / (1.0 + g.z);
     let u = vec3<f32>(1.0 + g.x * g.x * q, g.x * g.y * q, -g.x);
     let v = vec3<f32>(g.x * g.y * q, 1.0 + g.y * g.y * q, -g.y);
@@ -2611,14 +2628,14 @@ fn ltc_cone_across(cone: LtcCone) -> LtcAcross {
     let v_square = a_square * v.x * v.x + b_square * v.y * v.y;
     let product = a_square * u.x * v.x + b_square * u.y * v.y;
     let scale = 1.0 / max(u_square + v_square, LTC_TINY);
-    let turn = ltc_half_turn(0.5 * scale * (u_square - v_square), scale * product);
+    let turn = ltc_half_turn(0.5 * scale * (u_square - v_square), clamp(scale * product, -1.0, 1.0));
     let wide = u * turn.x + v * turn.y;
     let first = wide * w * inverse_root;
     var across: LtcAcross;
     across.first = first * inverseSqrt(max(dot(first, first), LTC_TINY));
     across.first_value = a_square * wide.x * wide.x + b_square * wide.y * wide.y;
     across.second = cross(cone.axis, across.first);
-    across.second_value = min(a_square * (b_square / max(across.first_value, LTC_TINY)) * (g.z * g.z), across.first_value);
+    across.second_value = min(a_square * min(b_square / max(across.first_value, LTC_TINY), 1.0) * (g.z * g.z), across.first_value);
     return across;
 }
 
@@ -2657,10 +2674,10 @@ fn ltc_cone_part(cone: LtcCone, across: LtcAcross, cut: LtcCut) -> vec4<f32> {
     let end_point = middle - along;
     let start_inverse = inverseSqrt(max(dot(start_point, start_point), LTC_TINY));
     let end_inverse = inverseSqrt(max(dot(end_point, end_point), LTC_TINY));
-    let both = start_inverse * end_inverse;
+    let both = min(start_inverse * end_inverse, LTC_NEAREST_PAIR);
     let start = start_point * start_inverse;
     let end = end_point * end_inverse;
-    let sine = min(2.0 * cut.reach * cut.moment * (cone.scale * cone.scale) * both, 1.0);
+    let sine = min(2.0 * cut.reach * ltc_cone_moment(cone, cut) * both, 1.0);
     let side = start - end;
     // The ends of a short chord differ by rounding alone; their cross product does not.
     let far_k = 0.5 * dot(side, side);
@@ -2691,7 +2708,7 @@ fn ltc_cone_chord(cone: LtcCone, cut: LtcCut, start: vec2<f32>, end: vec2<f32>) 
     let b_inverse = inverseSqrt(max(dot(b, b), LTC_TINY));
     let along = end - start;
     let square = dot(along, along);
-    let sine = square * inverseSqrt(max(square, LTC_TINY)) * cut.moment * (cone.scale * cone.scale) * (a_inverse * b_inverse);
+    let sine = square * inverseSqrt(max(square, LTC_TINY)) * ltc_cone_moment(cone, cut) * min(a_inverse * b_inverse, LTC_NEAREST_PAIR);
     return cut.normal * ltc_angle(a * a_inverse, b * b_inverse, sine);
 }
 
@@ -2702,7 +2719,7 @@ fn ltc_cone_arc(cone: LtcCone, across: LtcAcross, start: vec2<f32>, end: vec2<f3
     let b = ltc_cone_point(cone, end);
     let a_inverse = inverseSqrt(max(dot(a, a), LTC_TINY));
     let b_inverse = inverseSqrt(max(dot(b, b), LTC_TINY));
-    let both = a_inverse * b_inverse;
+    let both = min(a_inverse * b_inverse, LTC_NEAREST_PAIR);
     let back = start - end;
     let back_square = dot(back, back);
     let product = ltc_cone_inward(cone, ltc_edge_normal(b, a, cone.half_x * back.x + cone.half_y * back.y));
@@ -2946,7 +2963,9 @@ fn ltc_sphere_begin(surface: LtcSurface, centre: vec3<f32>, radius: f32) -> LtcS
     disk.volume = cosine;
     disk.cut = ltc_cut(surface.normal, disk.half_x, disk.half_y, sine, disk.centre);
     disk.clipped = disk.cut.offset > -1.0;
-    disk.reaches = sphere.inside | ((disk.cut.offset < 1.0) & (cosine > 0.0));
+    // A sphere of no radius gives nothing, at its centre either.
+    disk.reaches = (sphere.inside | ((disk.cut.offset < 1.0) & (cosine > 0.0))) & (ball > 0.0);
+    sphere.inside = sphere.inside & disk.reaches;
     sphere.disk = disk;
     return sphere;
 }

@@ -659,13 +659,21 @@ const float LTC_MEAN_SHIFT = 0.5;
 // Smallest length by which anything is divided; a reciprocal of it is still finite.
 const float LTC_TINY = 1e-37;
 
-// Extent of a sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
+// Extent of a polygon, sphere or tube together with its distance, times LTC_HEADROOM, below which it shrinks to nothing. A
 // reciprocal of it times an inverse root of LTC_TINY is finite, in whichever order a compiler takes a product.
 const float LTC_SMALLEST = 1e-19;
 
 // Smallest square by which a tube's own directions are divided: several inverse roots of it in one product are finite,
 // in whichever order a compiler takes it.
 const float LTC_TUBE_TINY = 1e-20;
+
+// Least depth of a cone, in units of the disk's distance and size together, squared. Products of its reciprocal and of inverse roots
+// of it with one of LTC_TINY are finite, in whichever order a compiler takes them.
+const float LTC_SHALLOWEST = 1e-18;
+
+// Largest product of the reciprocal distances of two points of a disk's rim, in units of its distance and size together, for the
+// same reason.
+const float LTC_NEAREST_PAIR = 1e18;
 
 // Factor on positions that leaves room for their differences, a power of two.
 const float LTC_HEADROOM = 0.0625;
@@ -711,7 +719,7 @@ float ltc_extent(vec3 v) {
 // Zero for a zero vector.
 vec3 ltc_direction(vec3 v) {
     float _e1 = ltc_extent(v);
-    vec3 scaled = (v * (1.0 / clamp(_e1, LTC_TINY, 8e37)));
+    vec3 scaled = (v * (1.0 / clamp(_e1, 1e-35, 8e37)));
     return (scaled * inversesqrt(max(dot(scaled, scaled), 0.001)));
 }
 
@@ -883,9 +891,10 @@ vec3 ltc_all_around(LtcLobe lobe) {
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_GGX) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || LTC_QUAD || LTC_TEXTURED
-// 1 over the length of `v`.
+// 1 over the length of `v`, at most 1e15: the product of two of them, times what rounding leaves of a cross product that
+// vanishes, has a square in range.
 float ltc_inverse_length(vec3 v) {
-    return inversesqrt(max(dot(v, v), LTC_TINY));
+    return inversesqrt(max(dot(v, v), 1e-30));
 }
 #endif
 
@@ -1294,7 +1303,7 @@ vec3 ltc_edge_about(vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset
 // relative precision of `offset`: the two unit vectors themselves differ by rounding alone when the
 // points are close. `reference` is the direction of `origin`.
 vec3 ltc_offset(vec3 origin, vec3 reference, vec3 target_point, vec3 offset) {
-    float inverse_length = inversesqrt(max(dot(target_point, target_point), LTC_TINY));
+    float inverse_length = inversesqrt(max(dot(target_point, target_point), 1e-22));
     float length_sum = ((dot(target_point, target_point) * inverse_length) + dot(origin, reference));
     float length_difference = (dot(offset, (origin + target_point)) / max(length_sum, LTC_TINY));
     vec3 near = ((offset - (reference * length_difference)) * inverse_length);
@@ -1853,8 +1862,8 @@ LtcQuad ltc_quad_begin(LtcSurface surface, vec3 a_10, vec3 b_9, vec3 c_4, vec3 d
         vec4 leave_to = (up_c ? q_d : (up_b ? q_c : q_b));
         vec4 leave_side = (leave_to - leave_from);
         vec4 enter_side = (q_d - q_a);
-        vec4 leave = (leave_from + (leave_side * ((base_height + leave_from.w) / max(-(leave_side.w), LTC_TINY))));
-        vec4 enter = (q_a + (enter_side * ((base_height + q_a.w) / max(-(enter_side.w), LTC_TINY))));
+        vec4 leave = (leave_from + (leave_side * clamp(((base_height + leave_from.w) / max(-(leave_side.w), LTC_TINY)), 0.0, 1.0)));
+        vec4 enter = (q_a + (enter_side * clamp(((base_height + q_a.w) / max(-(enter_side.w), LTC_TINY)), 0.0, 1.0)));
         first = q_a;
         v_b = (up_b ? q_b : leave);
         v_c = (up_c ? q_c : leave);
@@ -1862,82 +1871,82 @@ LtcQuad ltc_quad_begin(LtcSurface surface, vec3 a_10, vec3 b_9, vec3 c_4, vec3 d
         v_e = enter;
         if (distant_1) {
             first = (_e80 + q_a);
-            vec4 _e198 = v_b;
-            v_b = (_e198 - q_a);
-            vec4 _e200 = v_c;
-            v_c = (_e200 - q_a);
-            vec4 _e202 = v_d;
-            v_d = (_e202 - q_a);
-            vec4 _e204 = v_e;
-            v_e = (_e204 - q_a);
+            vec4 _e200 = v_b;
+            v_b = (_e200 - q_a);
+            vec4 _e202 = v_c;
+            v_c = (_e202 - q_a);
+            vec4 _e204 = v_d;
+            v_d = (_e204 - q_a);
+            vec4 _e206 = v_e;
+            v_e = (_e206 - q_a);
         }
     }
 #endif
-    vec4 _e207 = first;
-    vec3 _e208 = ltc_rise_in_frame(surface, _e207);
-    quad.a = _e208;
-    vec4 _e210 = v_b;
-    vec3 _e211 = ltc_rise_in_frame(surface, _e210);
-    quad.b = _e211;
-    vec4 _e213 = v_c;
-    vec3 _e214 = ltc_rise_in_frame(surface, _e213);
-    quad.c = _e214;
-    vec4 _e216 = v_d;
-    vec3 _e217 = ltc_rise_in_frame(surface, _e216);
-    quad.d = _e217;
-    vec3 _e220 = quad.d;
-    quad.e = _e220;
-    bool _e224 = quad.clipped;
+    vec4 _e209 = first;
+    vec3 _e210 = ltc_rise_in_frame(surface, _e209);
+    quad.a = _e210;
+    vec4 _e212 = v_b;
+    vec3 _e213 = ltc_rise_in_frame(surface, _e212);
+    quad.b = _e213;
+    vec4 _e215 = v_c;
+    vec3 _e216 = ltc_rise_in_frame(surface, _e215);
+    quad.c = _e216;
+    vec4 _e218 = v_d;
+    vec3 _e219 = ltc_rise_in_frame(surface, _e218);
+    quad.d = _e219;
+    vec3 _e222 = quad.d;
+    quad.e = _e222;
+    bool _e226 = quad.clipped;
 #if !LTC_CHEAP_HORIZON
-    if ((!(ltc_use_cheap_horizon) && _e224)) {
-        vec4 _e227 = v_e;
-        vec3 _e228 = ltc_rise_in_frame(surface, _e227);
-        quad.e = _e228;
+    if ((!(ltc_use_cheap_horizon) && _e226)) {
+        vec4 _e229 = v_e;
+        vec3 _e230 = ltc_rise_in_frame(surface, _e229);
+        quad.e = _e230;
     }
 #endif
     if (!(distant_1)) {
-        vec4 _e231 = first;
-        vec4 _e233 = v_b;
+        vec4 _e233 = first;
         vec4 _e235 = v_b;
-        vec4 _e237 = first;
-        vec3 _e240 = ltc_edge_normal(_e231.xyz, _e233.xyz, (_e235.xyz - _e237.xyz));
-        vec3 _e241 = ltc_in_frame(surface, _e240);
-        quad.a_normal = _e241;
-        vec4 _e243 = v_b;
-        vec4 _e245 = v_c;
+        vec4 _e237 = v_b;
+        vec4 _e239 = first;
+        vec3 _e242 = ltc_edge_normal(_e233.xyz, _e235.xyz, (_e237.xyz - _e239.xyz));
+        vec3 _e243 = ltc_in_frame(surface, _e242);
+        quad.a_normal = _e243;
+        vec4 _e245 = v_b;
         vec4 _e247 = v_c;
-        vec4 _e249 = v_b;
-        vec3 _e252 = ltc_edge_normal(_e243.xyz, _e245.xyz, (_e247.xyz - _e249.xyz));
-        vec3 _e253 = ltc_in_frame(surface, _e252);
-        quad.b_normal = _e253;
-        vec4 _e255 = v_c;
-        vec4 _e257 = v_d;
+        vec4 _e249 = v_c;
+        vec4 _e251 = v_b;
+        vec3 _e254 = ltc_edge_normal(_e245.xyz, _e247.xyz, (_e249.xyz - _e251.xyz));
+        vec3 _e255 = ltc_in_frame(surface, _e254);
+        quad.b_normal = _e255;
+        vec4 _e257 = v_c;
         vec4 _e259 = v_d;
-        vec4 _e261 = v_c;
-        vec3 _e264 = ltc_edge_normal(_e255.xyz, _e257.xyz, (_e259.xyz - _e261.xyz));
-        vec3 _e265 = ltc_in_frame(surface, _e264);
-        quad.c_normal = _e265;
-        vec4 _e267 = v_e;
-        vec4 _e269 = first;
+        vec4 _e261 = v_d;
+        vec4 _e263 = v_c;
+        vec3 _e266 = ltc_edge_normal(_e257.xyz, _e259.xyz, (_e261.xyz - _e263.xyz));
+        vec3 _e267 = ltc_in_frame(surface, _e266);
+        quad.c_normal = _e267;
+        vec4 _e269 = v_e;
         vec4 _e271 = first;
-        vec4 _e273 = v_e;
-        vec3 _e276 = ltc_edge_normal(_e267.xyz, _e269.xyz, (_e271.xyz - _e273.xyz));
-        vec3 _e277 = ltc_in_frame(surface, _e276);
-        quad.e_normal = _e277;
-        bool _e281 = quad.clipped;
+        vec4 _e273 = first;
+        vec4 _e275 = v_e;
+        vec3 _e278 = ltc_edge_normal(_e269.xyz, _e271.xyz, (_e273.xyz - _e275.xyz));
+        vec3 _e279 = ltc_in_frame(surface, _e278);
+        quad.e_normal = _e279;
+        bool _e283 = quad.clipped;
 #if !LTC_CHEAP_HORIZON
-        if ((!(ltc_use_cheap_horizon) && _e281)) {
-            vec4 _e285 = v_d;
-            vec4 _e287 = v_e;
+        if ((!(ltc_use_cheap_horizon) && _e283)) {
+            vec4 _e287 = v_d;
             vec4 _e289 = v_e;
-            vec4 _e291 = v_d;
-            vec3 _e294 = ltc_edge_normal(_e285.xyz, _e287.xyz, (_e289.xyz - _e291.xyz));
-            quad.rim = dot(surface.normal, _e294);
+            vec4 _e291 = v_e;
+            vec4 _e293 = v_d;
+            vec3 _e296 = ltc_edge_normal(_e287.xyz, _e289.xyz, (_e291.xyz - _e293.xyz));
+            quad.rim = dot(surface.normal, _e296);
         }
 #endif
     }
-    LtcQuad _e296 = quad;
-    return _e296;
+    LtcQuad _e298 = quad;
+    return _e298;
 }
 #endif
 
@@ -2313,7 +2322,7 @@ LtcOutline ltc_outline_begin(LtcSurface surface, vec3 corner) {
     vec3 to_first = ((corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
     outline.first = corner;
     float _e11 = ltc_extent(to_first);
-    outline.scale = (1.0 / max(_e11, LTC_TINY));
+    outline.scale = (1.0 / max(_e11, LTC_SMALLEST));
     outline.first_up = (dot(surface.normal, to_first) > 0.0);
     bool _e23 = outline.first_up;
     outline.previous_up = _e23;
@@ -2368,7 +2377,7 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
     float _e19 = ltc_extent((b_far - origin));
     float extent = max(_e17, _e19);
     float _e22 = outline.scale;
-    float scale_3 = min(_e22, (100000000.0 / max(extent, 1e-29)));
+    float scale_3 = min(_e22, (100000000.0 / max(extent, 1e-11)));
     vec3 reference_7 = ((first_far - origin) * scale_3);
     vec3 a = ((a_far - origin) * scale_3);
     vec3 b = ((b_far - origin) * scale_3);
@@ -2961,8 +2970,8 @@ LtcTube ltc_tube_begin(LtcSurface surface, vec3 start_3, vec3 end_3, float radiu
     tube.end_weight = 0.0;
 #if LTC_CAPS
     if ((ltc_use_caps && caps)) {
-        float a_inverse = inversesqrt(max(max(a_squared, (r * r)), LTC_TINY));
-        float b_inverse = inversesqrt(max(max(b_squared, (r * r)), LTC_TINY));
+        float a_inverse = inversesqrt(max(max(a_squared, (r * r)), LTC_TUBE_TINY));
+        float b_inverse = inversesqrt(max(max(b_squared, (r * r)), LTC_TUBE_TINY));
         float farther = ((max(b_squared, (r * r)) * b_inverse) - (max(a_squared, (r * r)) * a_inverse));
         float turned = (sine_5 * clamp((farther / max(full_length, LTC_TINY)), -1.0, 1.0));
         float reach = min(r, full_length);
@@ -3591,7 +3600,7 @@ LtcCone ltc_cone(vec3 half_x_1, vec3 half_y_1, float size, vec3 centre_1, vec3 n
     float long_square = dot(longest, longest);
     float long_inverse = inversesqrt(max(long_square, LTC_TINY));
     float normal_square = dot(normal, normal);
-    float normal_inverse = inversesqrt(max(normal_square, LTC_TINY));
+    float normal_inverse = inversesqrt(max(normal_square, 1e-30));
     float aspect = min((((normal_square * normal_inverse) * long_inverse) * long_inverse), 1.0);
     float long_half = ((size * long_square) * long_inverse);
     cone.scale = inversesqrt(max((dot(centre_1, centre_1) + (long_half * long_half)), LTC_TINY));
@@ -3613,11 +3622,11 @@ LtcCone ltc_cone(vec3 half_x_1, vec3 half_y_1, float size, vec3 centre_1, vec3 n
     float _e78 = cone.scale;
     cone.place = vec3(dot(_e67, _e69), dot(_e72, _e74), ((volume * normal_inverse) * _e78));
     float _e82 = cone.scale;
-    float a = (long_half * _e82);
+    float a = min((long_half * _e82), 1.0);
     float b = (a * aspect);
-    vec3 _e86 = cone.place;
     vec3 _e88 = cone.place;
-    vec3 p = (_e86 * _e88);
+    vec3 _e90 = cone.place;
+    vec3 p = (_e88 * _e90);
     vec2 s = vec2((a * a), (b * b));
     cone.first_square = s.x;
     cone.second_square = s.y;
@@ -3629,51 +3638,51 @@ LtcCone ltc_cone(vec3 half_x_1, vec3 half_y_1, float size, vec3 centre_1, vec3 n
     float middle = (0.5 * ((weight + p.z) - pole));
     float under = ((middle * middle) + (p.z * pole));
     float root = (under * inversesqrt(max(under, LTC_TINY)));
-    float lowest = ((middle > 0.0) ? (middle + root) : ((p.z * pole) / max((root - middle), LTC_TINY)));
+    float lowest = ((middle > 0.0) ? (middle + root) : (p.z * min((pole / max((root - middle), LTC_TINY)), 1e19)));
     float highest = ((p.x + p.y) + p.z);
     float quadratic = ((s.x + s.y) - highest);
     float linear = ((s.y * ((s.x - p.x) - p.z)) - (s.x * (p.y + p.z)));
     float absolute = ((-(p.z) * s.x) * s.y);
     depth = lowest;
     if ((aspect < 0.9999)) {
-        float _e173 = depth;
-        float _e174 = ltc_cone_step(_e173, quadratic, linear, absolute);
-        depth = min(max(_e174, lowest), highest);
         float _e177 = depth;
         float _e178 = ltc_cone_step(_e177, quadratic, linear, absolute);
         depth = min(max(_e178, lowest), highest);
         float _e181 = depth;
         float _e182 = ltc_cone_step(_e181, quadratic, linear, absolute);
         depth = min(max(_e182, lowest), highest);
+        float _e185 = depth;
+        float _e186 = ltc_cone_step(_e185, quadratic, linear, absolute);
+        depth = min(max(_e186, lowest), highest);
     }
-    float _e186 = depth;
-    cone.depth = max(_e186, LTC_TINY);
-    float _e191 = cone.depth;
-    float inverse_x = (1.0 / max((s.x + _e191), LTC_TINY));
-    float _e199 = cone.depth;
-    float inverse_y = (1.0 / max((s.y + _e199), LTC_TINY));
+    float _e190 = depth;
+    cone.depth = max(_e190, LTC_SHALLOWEST);
+    float _e195 = cone.depth;
+    float inverse_x = (1.0 / (s.x + _e195));
+    float _e201 = cone.depth;
+    float inverse_y = (1.0 / (s.y + _e201));
     float _e207 = cone.place.x;
     float _e209 = cone.depth;
-    float _e214 = cone.place.y;
-    float _e216 = cone.depth;
-    float _e221 = cone.place.z;
-    vec3 toward = vec3(((_e207 * _e209) * inverse_x), ((_e214 * _e216) * inverse_y), _e221);
-    cone.nearness = inversesqrt(max(dot(toward, toward), LTC_TINY));
-    float _e230 = cone.nearness;
-    cone.axis = (toward * _e230);
-    float _e234 = cone.depth;
+    float _e216 = cone.place.y;
+    float _e218 = cone.depth;
+    float _e225 = cone.place.z;
+    vec3 toward = vec3((_e207 * min((_e209 * inverse_x), 1.0)), (_e216 * min((_e218 * inverse_y), 1.0)), _e225);
+    cone.nearness = inversesqrt(max(dot(toward, toward), 1e-30));
+    float _e234 = cone.nearness;
+    cone.axis = (toward * _e234);
     float _e238 = cone.depth;
-    float spread = inversesqrt(max(((s.x + _e234) * (s.y + _e238)), LTC_TINY));
-    float _e247 = cone.place.z;
-    float _e249 = cone.nearness;
-    cone.whole = min(((_e247 * _e249) * ((a * b) * spread)), 1.0);
-    float _e259 = cone.place.x;
-    float _e265 = cone.place.y;
-    vec2 pierced = vec2(((-(a) * _e259) * inverse_x), ((-(b) * _e265) * inverse_y));
+    float _e242 = cone.depth;
+    float spread = inversesqrt(((s.x + _e238) * (s.y + _e242)));
+    float _e249 = cone.place.z;
+    float _e251 = cone.nearness;
+    cone.whole = min(((_e249 * _e251) * ((a * b) * spread)), 1.0);
+    float _e261 = cone.place.x;
+    float _e267 = cone.place.y;
+    vec2 pierced = vec2(((-(a) * _e261) * inverse_x), ((-(b) * _e267) * inverse_y));
     cone.pierced_x = ((pierced.x * _e12.x) - (pierced.y * _e12.y));
     cone.pierced_y = ((pierced.x * _e12.y) + (pierced.y * _e12.x));
-    LtcCone _e285 = cone;
-    return _e285;
+    LtcCone _e287 = cone;
+    return _e287;
 }
 #endif
 
@@ -3699,6 +3708,13 @@ vec3 ltc_cone_point(LtcCone cone, vec2 p) {
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
+// A cut's moment in a cone's units, where it is at most 1 but for rounding.
+float ltc_cone_moment(LtcCone cone, LtcCut cut) {
+    return min((cut.moment * (cone.scale * cone.scale)), 2.0);
+}
+#endif
+
+#if (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_SPHERE) || LTC_DISK || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // Cosine between the cone's axis and a plane's normal.
 float ltc_cone_tilt(LtcCone cone, LtcCut cut) {
     float rise = (((cone.pierced_x * cut.toward.x) + (cone.pierced_y * cut.toward.y)) * cut.steepness);
@@ -3717,9 +3733,9 @@ LtcAcross ltc_cone_across(LtcCone cone) {
     float a_square = cone.first_square;
     float b_square = cone.second_square;
     vec3 w = vec3((a_square + cone.depth), (b_square + cone.depth), cone.depth);
-    vec3 inverse_root = vec3(inversesqrt(max(w.x, LTC_TINY)), inversesqrt(max(w.y, LTC_TINY)), inversesqrt(w.z));
+    vec3 inverse_root = inversesqrt(w);
     vec3 weighted = (cone.place * inverse_root);
-    vec3 g = (weighted * inversesqrt(max(dot(weighted, weighted), LTC_TINY)));
+    vec3 g = (weighted * inversesqrt(max(dot(weighted, weighted), 1e-6)));
     float q = (-1.0 / (1.0 + g.z));
     vec3 u = vec3((1.0 + ((g.x * g.x) * q)), ((g.x * g.y) * q), -(g.x));
     vec3 v = vec3(((g.x * g.y) * q), (1.0 + ((g.y * g.y) * q)), -(g.y));
@@ -3727,18 +3743,18 @@ LtcAcross ltc_cone_across(LtcCone cone) {
     float v_square = (((a_square * v.x) * v.x) + ((b_square * v.y) * v.y));
     float product = (((a_square * u.x) * v.x) + ((b_square * u.y) * v.y));
     float scale = (1.0 / max((u_square + v_square), LTC_TINY));
-    vec2 _e95 = ltc_half_turn(((0.5 * scale) * (u_square - v_square)), (scale * product));
-    vec3 wide = ((u * _e95.x) + (v * _e95.y));
+    vec2 _e88 = ltc_half_turn(((0.5 * scale) * (u_square - v_square)), clamp((scale * product), -1.0, 1.0));
+    vec3 wide = ((u * _e88.x) + (v * _e88.y));
     vec3 first_7 = ((wide * w) * inverse_root);
     across.first = (first_7 * inversesqrt(max(dot(first_7, first_7), LTC_TINY)));
     across.first_value = (((a_square * wide.x) * wide.x) + ((b_square * wide.y) * wide.y));
-    vec3 _e123 = across.first;
-    across.second = cross(cone.axis, _e123);
-    float _e127 = across.first_value;
-    float _e137 = across.first_value;
-    across.second_value = min(((a_square * (b_square / max(_e127, LTC_TINY))) * (g.z * g.z)), _e137);
-    LtcAcross _e139 = across;
-    return _e139;
+    vec3 _e116 = across.first;
+    across.second = cross(cone.axis, _e116);
+    float _e120 = across.first_value;
+    float _e132 = across.first_value;
+    across.second_value = min(((a_square * min((b_square / max(_e120, LTC_TINY)), 1.0)) * (g.z * g.z)), _e132);
+    LtcAcross _e134 = across;
+    return _e134;
 }
 #endif
 
@@ -3780,24 +3796,25 @@ vec4 ltc_cone_part(LtcCone cone, LtcAcross across, LtcCut cut) {
     vec3 end_point = (_e6 - along);
     float start_inverse = inversesqrt(max(dot(start_point, start_point), LTC_TINY));
     float end_inverse = inversesqrt(max(dot(end_point, end_point), LTC_TINY));
-    float both = (start_inverse * end_inverse);
+    float both = min((start_inverse * end_inverse), LTC_NEAREST_PAIR);
     vec3 start = (start_point * start_inverse);
     vec3 end = (end_point * end_inverse);
-    float sine = min(((((2.0 * cut.reach) * cut.moment) * (cone.scale * cone.scale)) * both), 1.0);
+    float _e36 = ltc_cone_moment(cone, cut);
+    float sine = min((((2.0 * cut.reach) * _e36) * both), 1.0);
     vec3 side = (start - end);
     float far_k = (0.5 * dot(side, side));
     float k = ((far_k > 1.0) ? far_k : ((sine * sine) / max((2.0 - far_k), 1.0)));
-    float _e60 = ltc_angle_excess(min(k, clamp((2.0 - k), 0.0, 1.0)));
-    float excess = (sine * _e60);
+    float _e58 = ltc_angle_excess(min(k, clamp((2.0 - k), 0.0, 1.0)));
+    float excess = (sine * _e58);
     float rest = ((k > 1.0) ? ((LTC_PI - (2.0 * sine)) - excess) : excess);
-    float _e70 = ltc_cone_tilt(cone, cut);
-    vec3 _e72 = ltc_cone_inward(cone, cut.normal);
-    vec3 normal_16 = vec3(dot(_e72, across.first), dot(_e72, across.second), _e70);
-    vec3 _e86 = ltc_cone_sweep(cone, across, normal_16, sine, k, (((2.0 * cut.reach) * cut.reach) * both), (_e70 >= 0.0), rest);
-    vec3 sum = vec3(_e86.xy, (_e86.z + (_e70 * (rest + sine))));
+    float _e68 = ltc_cone_tilt(cone, cut);
+    vec3 _e70 = ltc_cone_inward(cone, cut.normal);
+    vec3 normal_16 = vec3(dot(_e70, across.first), dot(_e70, across.second), _e68);
+    vec3 _e84 = ltc_cone_sweep(cone, across, normal_16, sine, k, (((2.0 * cut.reach) * cut.reach) * both), (_e68 >= 0.0), rest);
+    vec3 sum = vec3(_e84.xy, (_e84.z + (_e68 * (rest + sine))));
     vec3 turned = (((across.first * sum.x) + (across.second * sum.y)) + (cone.axis * sum.z));
-    vec3 _e104 = ltc_cone_outward(cone, turned);
-    return vec4(_e104, dot(normal_16, sum));
+    vec3 _e102 = ltc_cone_outward(cone, turned);
+    return vec4(_e102, dot(normal_16, sum));
 }
 #endif
 
@@ -3817,9 +3834,10 @@ vec3 ltc_cone_chord(LtcCone cone, LtcCut cut, vec2 start, vec2 end) {
     float b_inverse = inversesqrt(max(dot(_e5, _e5), LTC_TINY));
     vec2 along = (end - start);
     float square = dot(along, along);
-    float sine = ((((square * inversesqrt(max(square, LTC_TINY))) * cut.moment) * (cone.scale * cone.scale)) * (a_inverse * b_inverse));
-    float _e31 = ltc_angle((_e4 * a_inverse), (_e5 * b_inverse), sine);
-    return (cut.normal * _e31);
+    float _e20 = ltc_cone_moment(cone, cut);
+    float sine = (((square * inversesqrt(max(square, LTC_TINY))) * _e20) * min((a_inverse * b_inverse), LTC_NEAREST_PAIR));
+    float _e29 = ltc_angle((_e4 * a_inverse), (_e5 * b_inverse), sine);
+    return (cut.normal * _e29);
 }
 #endif
 
@@ -3831,20 +3849,20 @@ vec3 ltc_cone_arc(LtcCone cone, LtcAcross across, vec2 start, vec2 end, bool nea
     vec3 _e6 = ltc_cone_point(cone, end);
     float a_inverse = inversesqrt(max(dot(_e5, _e5), LTC_TINY));
     float b_inverse = inversesqrt(max(dot(_e6, _e6), LTC_TINY));
-    float both = (a_inverse * b_inverse);
+    float both = min((a_inverse * b_inverse), LTC_NEAREST_PAIR);
     vec2 back = (start - end);
     float back_square = dot(back, back);
-    vec3 _e25 = ltc_edge_normal(_e6, _e5, ((cone.half_x * back.x) + (cone.half_y * back.y)));
-    vec3 _e26 = ltc_cone_inward(cone, _e25);
-    float product_square = dot(_e26, _e26);
+    vec3 _e27 = ltc_edge_normal(_e6, _e5, ((cone.half_x * back.x) + (cone.half_y * back.y)));
+    vec3 _e28 = ltc_cone_inward(cone, _e27);
+    float product_square = dot(_e28, _e28);
     float product_inverse = inversesqrt(max(product_square, LTC_TINY));
-    vec3 normal = (vec3(dot(_e26, across.first), dot(_e26, across.second), dot(_e26, cone.axis)) * product_inverse);
+    vec3 normal = (vec3(dot(_e28, across.first), dot(_e28, across.second), dot(_e28, cone.axis)) * product_inverse);
     float sine = min(((product_square * product_inverse) * both), 1.0);
     vec3 side = ((_e5 * a_inverse) - (_e6 * b_inverse));
     bool large = ((back_square < 1e-9) ? nearly_full : (normal.z >= 0.0));
-    vec3 _e59 = ltc_cone_sweep(cone, across, normal, sine, (0.5 * dot(side, side)), ((0.5 * back_square) * both), large, -(sine));
-    vec3 _e71 = ltc_cone_outward(cone, (((across.first * _e59.x) + (across.second * _e59.y)) + (cone.axis * _e59.z)));
-    return _e71;
+    vec3 _e61 = ltc_cone_sweep(cone, across, normal, sine, (0.5 * dot(side, side)), ((0.5 * back_square) * both), large, -(sine));
+    vec3 _e73 = ltc_cone_outward(cone, (((across.first * _e61.x) + (across.second * _e61.y)) + (cone.axis * _e61.z)));
+    return _e73;
 }
 #endif
 
@@ -3931,7 +3949,7 @@ float ltc_disk_diffuse(LtcDisk disk) {
 #if (LTC_ANISOTROPIC && LTC_DISK) || (LTC_ANISOTROPIC && LTC_SPHERE) || (LTC_CLEARCOAT && LTC_DISK) || (LTC_CLEARCOAT && LTC_SPHERE) || (LTC_DISK && LTC_GGX) || (LTC_DISK && LTC_ROUGH_DIFFUSE) || (LTC_DISK && LTC_SHEEN) || (LTC_GGX && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SPHERE) || (LTC_SHEEN && LTC_SPHERE)
 // The vector form factor of a disk in a lobe's space, cut at both horizons, towards the light.
 vec3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe) {
-    LtcCut cut_5 = LtcCut(vec3(0.0), 0.0, vec2(0.0), 0.0, 0.0, 0.0, 0.0);
+    LtcCut cut_6 = LtcCut(vec3(0.0), 0.0, vec2(0.0), 0.0, 0.0, 0.0, 0.0);
     vec3 sum = vec3(0.0);
     if (!(disk.reaches)) {
         return vec3(0.0);
@@ -3955,25 +3973,25 @@ vec3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe) {
     vec3 _e49 = ltc_transform_normal(lobe, disk.cut.normal);
     float horizon_square = dot(_e49, _e49);
     float horizon_inverse = inversesqrt(max(horizon_square, LTC_TINY));
-    cut_5 = disk.cut;
-    cut_5.normal = (_e49 * horizon_inverse);
-    float _e60 = cut_5.height;
-    cut_5.height = (_e60 * (volume_3 * horizon_inverse));
-    float _e65 = cut_5.steepness;
-    cut_5.steepness = (_e65 * (volume_3 * horizon_inverse));
-    float _e70 = cut_5.moment;
-    cut_5.moment = (_e70 * (horizon_square * horizon_inverse));
+    cut_6 = disk.cut;
+    cut_6.normal = (_e49 * horizon_inverse);
+    float _e60 = cut_6.height;
+    cut_6.height = (_e60 * (volume_3 * horizon_inverse));
+    float _e65 = cut_6.steepness;
+    cut_6.steepness = (_e65 * (volume_3 * horizon_inverse));
+    float _e70 = cut_6.moment;
+    cut_6.moment = (_e70 * (horizon_square * horizon_inverse));
     bool twice = (disk.clipped && own_clips);
-    vec2 _e77 = cut_5.toward;
+    vec2 _e77 = cut_6.toward;
     vec2 apart = (_e17.toward - _e77);
-    vec2 _e81 = cut_5.toward;
+    vec2 _e81 = cut_6.toward;
     vec2 along = (_e17.toward + _e81);
-    float _e85 = cut_5.offset;
+    float _e85 = cut_6.offset;
     float difference = (_e17.offset - _e85);
-    float _e89 = cut_5.offset;
+    float _e89 = cut_6.offset;
     float total = (_e17.offset + _e89);
-    float _e93 = cut_5.reach;
-    float _e97 = cut_5.reach;
+    float _e93 = cut_6.reach;
+    float _e97 = cut_6.reach;
     float reaches = ((_e17.reach - _e93) * (_e17.reach - _e97));
     bool nested = (((difference * difference) + reaches) >= dot(apart, apart));
     bool opposite = ((((total * total) + reaches) >= dot(along, along)) && !(nested));
@@ -3982,15 +4000,15 @@ vec3 ltc_disk_lobe(LtcDisk disk, LtcLobe lobe) {
     }
     LtcAcross _e116 = ltc_cone_across(_e31);
     if ((twice && !((nested || opposite)))) {
-        LtcCut _e121 = cut_5;
+        LtcCut _e121 = cut_6;
         vec3 _e122 = ltc_cone_between(_e31, _e116, _e121, _e17);
         sum = _e122;
     } else {
         bool own_counts = (own_clips && (!(disk.clipped) || (nested && (difference >= 0.0))));
         if (own_counts) {
-            cut_5 = _e17;
+            cut_6 = _e17;
         }
-        LtcCut _e130 = cut_5;
+        LtcCut _e130 = cut_6;
         vec4 _e131 = ltc_cone_part(_e31, _e116, _e130);
         sum = _e131.xyz;
         if ((twice && opposite)) {
@@ -4116,11 +4134,14 @@ LtcSphere ltc_sphere_begin(LtcSurface surface, vec3 centre_4, float radius) {
     disk_4.clipped = (_e96 > -1.0);
     bool _e101 = sphere.inside;
     float _e104 = disk_4.cut.offset;
-    disk_4.reaches = (_e101 || ((_e104 < 1.0) && (cosine > 0.0)));
-    LtcDisk _e112 = disk_4;
-    sphere.disk = _e112;
-    LtcSphere _e113 = sphere;
-    return _e113;
+    disk_4.reaches = ((_e101 || ((_e104 < 1.0) && (cosine > 0.0))) && (ball > 0.0));
+    bool _e116 = sphere.inside;
+    bool _e118 = disk_4.reaches;
+    sphere.inside = (_e116 && _e118);
+    LtcDisk _e121 = disk_4;
+    sphere.disk = _e121;
+    LtcSphere _e122 = sphere;
+    return _e122;
 }
 #endif
 

@@ -2,7 +2,7 @@
 
 use super::quad::{ltc_angle, ltc_angle_excess, ltc_edge_normal};
 use super::real::{Real, Vector};
-use super::surface::{LTC_TINY, unit};
+use super::surface::{LTC_NEAREST_PAIR, LTC_SHALLOWEST, LTC_TINY, unit};
 
 /// The cone over an ellipse, in the ellipse's frame and in units that make its lengths about 1.
 #[derive(Clone, Copy, Debug)]
@@ -139,14 +139,15 @@ pub fn ltc_cone<R: Real>(
     let long_square = long.dot(long);
     let long_inverse = long_square.max(tiny).inverse_sqrt();
     let normal_square = normal.dot(normal);
-    let normal_inverse = normal_square.max(tiny).inverse_sqrt();
+    let normal_inverse = normal_square.max(R::new(1e-30)).inverse_sqrt();
     let first = long * long_inverse;
     let third = normal * normal_inverse;
     let second = third.cross(first);
     let aspect = (normal_square * normal_inverse * long_inverse * long_inverse).min(one);
     let long_half = size * long_square * long_inverse;
     let scale = (centre.dot(centre) + long_half * long_half).max(tiny).inverse_sqrt();
-    let (a, b) = (long_half * scale, long_half * scale * aspect);
+    let a = (long_half * scale).min(one);
+    let b = a * aspect;
     let centre = centre * scale;
     let place = R::Vec3::new(centre.dot(first), centre.dot(second), volume * normal_inverse * scale);
     let (a2, b2, q) = (a * a, b * b, aspect * aspect);
@@ -160,7 +161,8 @@ pub fn ltc_cone<R: Real>(
     let middle = half * (weight + z2 - pole);
     let square = middle * middle + z2 * pole;
     let root = square * square.max(tiny).inverse_sqrt();
-    let lowest = if middle > zero { middle + root } else { z2 * pole / (root - middle).max(tiny) };
+    let above_middle = z2 * (pole / (root - middle).max(tiny)).min(R::new(1e19));
+    let lowest = if middle > zero { middle + root } else { above_middle };
     let highest = x2 + y2 + z2;
     let quadratic = a2 + b2 - highest;
     let linear = b2 * (a2 - x2 - z2) - a2 * (y2 + z2);
@@ -170,13 +172,13 @@ pub fn ltc_cone<R: Real>(
     for _ in 0..R::steps(if aspect < R::new(0.9999) { 3 } else { 0 }) {
         depth = ltc_cone_step(depth, quadratic, linear, constant).max(lowest).min(highest);
     }
-    let depth = depth.max(tiny);
+    let depth = depth.max(R::new(LTC_SHALLOWEST));
 
-    let x_weight = one / (a2 + depth).max(tiny);
-    let y_weight = one / (b2 + depth).max(tiny);
-    let toward = R::Vec3::new(place.x() * depth * x_weight, place.y() * depth * y_weight, place.z());
-    let nearness = toward.dot(toward).max(tiny).inverse_sqrt();
-    let spread = ((a2 + depth) * (b2 + depth)).max(tiny).inverse_sqrt();
+    let (x_weight, y_weight) = (one / (a2 + depth), one / (b2 + depth));
+    let drawn = |weight: R| (depth * weight).min(one);
+    let toward = R::Vec3::new(place.x() * drawn(x_weight), place.y() * drawn(y_weight), place.z());
+    let nearness = toward.dot(toward).max(R::new(1e-30)).inverse_sqrt();
+    let spread = ((a2 + depth) * (b2 + depth)).inverse_sqrt();
     let (xi, eta) = (-a * place.x() * x_weight, -b * place.y() * y_weight);
     LtcCone {
         half_x: half_x * (size * scale),
@@ -192,6 +194,11 @@ pub fn ltc_cone<R: Real>(
         nearness,
         scale,
     }
+}
+
+/// A cut's moment in a cone's units, where it is at most 1 but for rounding.
+pub fn ltc_cone_moment<R: Real>(cone: &LtcCone<R>, cut: &LtcCut<R>) -> R {
+    (cut.moment * (cone.scale * cone.scale)).min(R::new(2.0))
 }
 
 /// Component along a plane's normal of the cone's axis.
@@ -219,13 +226,11 @@ pub fn ltc_cone_outward<R: Real>(cone: &LtcCone<R>, v: R::Vec3) -> R::Vec3 {
 pub fn ltc_cone_across<R: Real>(cone: &LtcCone<R>) -> LtcAcross<R> {
     let (one, half, tiny) = (R::new(1.0), R::new(0.5), R::new(LTC_TINY));
     let [a2, b2] = cone.squares;
-    let (x_square, y_square) = ((a2 + cone.depth).max(tiny), (b2 + cone.depth).max(tiny));
+    let (x_square, y_square) = (a2 + cone.depth, b2 + cone.depth);
     let inverse = [x_square.inverse_sqrt(), y_square.inverse_sqrt(), cone.depth.inverse_sqrt()];
-    let g = unit::<R>(R::Vec3::new(
-        cone.place.x() * inverse[0],
-        cone.place.y() * inverse[1],
-        cone.place.z() * inverse[2],
-    ));
+    let weighted =
+        R::Vec3::new(cone.place.x() * inverse[0], cone.place.y() * inverse[1], cone.place.z() * inverse[2]);
+    let g = weighted * weighted.dot(weighted).max(R::new(1e-6)).inverse_sqrt();
     let p = -one / (one + g.z());
     let u = [one + g.x() * g.x() * p, g.x() * g.y() * p, -g.x()];
     let v = [g.x() * g.y() * p, one + g.y() * g.y() * p, -g.y()];
@@ -233,10 +238,11 @@ pub fn ltc_cone_across<R: Real>(cone: &LtcCone<R>) -> LtcAcross<R> {
     let v_square = a2 * v[0] * v[0] + b2 * v[1] * v[1];
     let product = a2 * u[0] * v[0] + b2 * u[1] * v[1];
     let scale = one / (u_square + v_square).max(tiny);
-    let [cosine, sine] = ltc_half_turn((u_square - v_square) * half * scale, product * scale);
+    let [cosine, sine] =
+        ltc_half_turn((u_square - v_square) * half * scale, (product * scale).clamp(-one, one));
     let w: [R; 3] = core::array::from_fn(|i| u[i] * cosine + v[i] * sine);
     let first_value = a2 * w[0] * w[0] + b2 * w[1] * w[1];
-    let second_value = a2 * (b2 / first_value.max(tiny)) * (g.z() * g.z());
+    let second_value = a2 * (b2 / first_value.max(tiny)).min(one) * (g.z() * g.z());
     let first = unit::<R>(R::Vec3::new(
         w[0] * x_square * inverse[0],
         w[1] * y_square * inverse[1],
@@ -316,9 +322,9 @@ pub fn ltc_cone_part<R: Real>(cone: &LtcCone<R>, across: &LtcAcross<R>, cut: &Lt
     let along = (cone.half_x * cut.toward[1] - cone.half_y * cut.toward[0]) * cut.reach;
     let (start, end) = (middle + along, middle - along);
     let (start_inverse, end_inverse) = (inverse_length::<R>(start), inverse_length::<R>(end));
-    let both = start_inverse * end_inverse;
+    let both = (start_inverse * end_inverse).min(R::new(LTC_NEAREST_PAIR));
     let (start, end) = (start * start_inverse, end * end_inverse);
-    let sine = (two * cut.reach * cut.moment * (cone.scale * cone.scale) * both).min(one);
+    let sine = (two * cut.reach * ltc_cone_moment(cone, cut) * both).min(one);
     let side = start - end;
     let rough = R::new(0.5) * side.dot(side);
     let k = if rough > one { rough } else { sine * sine / (two - rough) };
@@ -406,7 +412,8 @@ fn ltc_cone_chord<R: Real>(cone: &LtcCone<R>, cut: &LtcCut<R>, from: Plane<R>, t
     let step = [to[0] - from[0], to[1] - from[1]];
     let square = step[0] * step[0] + step[1] * step[1];
     let length = square * square.max(R::new(LTC_TINY)).inverse_sqrt();
-    let sine = length * cut.moment * (cone.scale * cone.scale) * (start_inverse * end_inverse);
+    let both = (start_inverse * end_inverse).min(R::new(LTC_NEAREST_PAIR));
+    let sine = length * ltc_cone_moment(cone, cut) * both;
     cut.normal * ltc_angle::<R>(start * start_inverse, end * end_inverse, sine)
 }
 
@@ -422,7 +429,7 @@ fn ltc_cone_arc<R: Real>(
     let half: R = R::new(0.5);
     let (start, end) = (ltc_cone_point(cone, from), ltc_cone_point(cone, to));
     let (start_inverse, end_inverse) = (inverse_length::<R>(start), inverse_length::<R>(end));
-    let both = start_inverse * end_inverse;
+    let both = (start_inverse * end_inverse).min(R::new(LTC_NEAREST_PAIR));
     let step = [from[0] - to[0], from[1] - to[1]];
     let square = step[0] * step[0] + step[1] * step[1];
     let side = cone.half_x * step[0] + cone.half_y * step[1];

@@ -198,9 +198,9 @@ pub fn ltc_sphere_begin<R: Real>(surface: &LtcSurface<R>, centre: R::Vec3, radiu
         size: sine,
         volume: cosine,
         cut,
-        reaches: inside | ((cut.offset < one) & (cosine > zero)),
+        reaches: (inside | ((cut.offset < one) & (cosine > zero))) & (reach > zero),
     };
-    LtcSphere { disk, inside }
+    LtcSphere { disk, inside: inside & disk.reaches }
 }
 
 /// The form factor of a sphere, 0…1.

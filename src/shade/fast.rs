@@ -4,7 +4,7 @@ use super::quad::{OVER_TWO_PI, ltc_shorter};
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_in_frame, ltc_transform_framed,
+    LTC_HEADROOM, LTC_SMALLEST, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_in_frame, ltc_transform_framed,
 };
 
 /// τ₀, τ₁ and τ₂ of the fit `softbox::fit::fit_half_angle`, from which the coefficients of [`ltc_fast_ratio`] come.
@@ -101,12 +101,12 @@ impl<R: Real> LtcFastLight<R> {
         let headroom: R = R::new(LTC_HEADROOM);
         let origin = surface.position * headroom;
         let first = vertices[0] * headroom;
-        let unit = R::new(1.0) / ltc_extent::<R>(first - origin).max(R::new(LTC_TINY));
+        let unit = R::new(1.0) / ltc_extent::<R>(first - origin).max(R::new(LTC_SMALLEST));
         for (index, vertex) in vertices.iter().enumerate() {
             let next = vertices[(index + 1) % vertices.len()];
             let (a, b) = (*vertex * headroom, next * headroom);
             let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
-            let unit = unit.min(R::new(1e8) / extent.max(R::new(1e-29)));
+            let unit = unit.min(R::new(1e8) / extent.max(R::new(1e-11)));
             let offset = ltc_shorter::<R>((a - first) * unit, (b - first) * unit);
             let point = ltc_shorter::<R>((a - origin) * unit, (b - origin) * unit);
             facing += ltc_shorter::<R>(offset, point).cross((b - a) * unit).dot((first - origin) * unit);

@@ -7,7 +7,7 @@ use super::quad::{
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
-    LTC_HEADROOM, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
+    LTC_HEADROOM, LTC_SMALLEST, LTC_TINY, LtcLobe, LtcSurface, ltc_extent, ltc_received, ltc_received_vector,
     ltc_transform, ltc_transform_normal, unit,
 };
 
@@ -27,8 +27,8 @@ pub struct LtcOutline<R: Real> {
     crossing: Option<Point<R>>,
     /// The first vertex, scaled as the points of the last edges.
     reference: R::Vec3,
-    /// What the last edge left above the surface, each with the cross product of its ends, and whether it is a piece of the horizon.
-    edges: [Option<(Edge<R>, R::Vec3, bool)>; 2],
+    /// What the last edge left above the surface.
+    edges: [Option<Part<R>>; 2],
 }
 
 /// What one lobe knows of an outline.
@@ -69,7 +69,7 @@ pub fn ltc_outline_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> L
         first_up,
         previous_up: first_up,
         first: corner,
-        scale: R::new(1.0) / ltc_extent::<R>(to_first).max(R::new(LTC_TINY)),
+        scale: R::new(1.0) / ltc_extent::<R>(to_first).max(R::new(LTC_SMALLEST)),
         previous: corner,
         facing: zero,
         diffuse: zero,
@@ -86,7 +86,7 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
     let first = outline.first * headroom;
     let (a, b) = (outline.previous * headroom, corner * headroom);
     let extent = ltc_extent::<R>(a - origin).max(ltc_extent::<R>(b - origin));
-    let scale = outline.scale.min(R::new(1e8) / extent.max(R::new(1e-29)));
+    let scale = outline.scale.min(R::new(1e8) / extent.max(R::new(1e-11)));
     let place = |v: R::Vec3| Point::<R> { at: (v - origin) * scale, offset: (v - first) * scale };
     let reference = place(first).at;
     let side = (b - a) * scale;
@@ -118,11 +118,15 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
     outline.edges = edges.map(|edge| {
         edge.map(|((start, end), closing)| {
             let product = ltc_edge_normal::<R>(start.at, end.at, end.offset - start.offset);
-            ((start, end), if closing { normal * normal.dot(product) } else { product }, closing)
+            Part {
+                edge: (start, end),
+                normal: if closing { normal * normal.dot(product) } else { product },
+                is_horizon: closing,
+            }
         })
     });
-    for (edge, product, _) in outline.edges.into_iter().flatten() {
-        outline.diffuse += -normal.dot(ltc_edge_from(reference, edge, product));
+    for part in outline.edges.into_iter().flatten() {
+        outline.diffuse += -normal.dot(ltc_edge_from(reference, part.edge, part.normal));
     }
 }
 
@@ -139,8 +143,8 @@ pub fn ltc_outline_lobe_add<R: Real>(
     lobe: &LtcLobe<R>,
 ) {
     let reference = ltc_transform(lobe, outline.reference);
-    for (edge, normal, is_horizon) in outline.edges.into_iter().flatten() {
-        ltc_outline_lobe_edge(sum, lobe, reference, edge, normal, is_horizon);
+    for part in outline.edges.into_iter().flatten() {
+        ltc_outline_lobe_edge(sum, lobe, reference, part);
     }
 }
 
@@ -197,6 +201,16 @@ pub fn ltc_polygon_end<R: Real>(
 /// A directed edge.
 type Edge<R> = (Point<R>, Point<R>);
 
+/// A part of an outline above the surface.
+#[derive(Clone, Copy, Debug)]
+struct Part<R: Real> {
+    edge: Edge<R>,
+    /// The cross product of its ends.
+    normal: R::Vec3,
+    /// Whether it is a piece of the horizon.
+    is_horizon: bool,
+}
+
 /// An end of an edge with its height over a plane, and whether it counts as above.
 type End<R> = (Point<R>, R, bool);
 
@@ -234,18 +248,17 @@ fn ltc_outline_lobe_edge<R: Real>(
     sum: &mut LtcOutlineLobe<R>,
     lobe: &LtcLobe<R>,
     reference: R::Vec3,
-    (a, b): Edge<R>,
-    normal: R::Vec3,
-    exact: bool,
+    part: Part<R>,
 ) {
-    let normal = ltc_transform_normal(lobe, normal);
+    let (a, b) = part.edge;
+    let normal = ltc_transform_normal(lobe, part.normal);
     let (a, b) = (a.transform(lobe), b.transform(lobe));
     let tolerance = ltc_above_tolerance(lobe);
     let (a_up, b_up) = (ltc_is_above::<R>(a.at, tolerance), ltc_is_above::<R>(b.at, tolerance));
     let turned = if a_up { normal } else { -normal };
     let ends = [(a, a.at.z(), a_up), (b, b.at.z(), b_up)];
     let edges = cut(ends[0], ends[1], &mut sum.crossing, |above, below, t| {
-        let at = ltc_crossing::<R>(above.at, below.at, turned, exact);
+        let at = ltc_crossing::<R>(above.at, below.at, turned, part.is_horizon);
         let reach = above.offset.dot(above.offset).max(below.offset.dot(below.offset));
         // As in the include: the offset of a point that is known by its direction only is that of what stands for it.
         let offset = if reach < R::new(0.0625) * reference.dot(reference) {

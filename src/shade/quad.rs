@@ -89,7 +89,7 @@ pub fn ltc_offset<R: Real>(
     offset: R::Vec3,
 ) -> R::Vec3 {
     let square = target_point.dot(target_point);
-    let inverse_length = square.max(R::new(LTC_TINY)).inverse_sqrt();
+    let inverse_length = square.max(R::new(1e-22)).inverse_sqrt();
     let length_sum = square * inverse_length + origin.dot(reference);
     let length_difference = offset.dot(origin + target_point) / length_sum.max(R::new(LTC_TINY));
     if offset.dot(offset) < R::new(0.0625) * origin.dot(origin) {
@@ -147,7 +147,7 @@ pub fn ltc_edge_turn<R: Real>(cosine: R, weight: R, normal: R::Vec3) -> R {
 
 /// 1 over the length of `v`.
 pub fn ltc_inverse_length<R: Real>(v: R::Vec3) -> R {
-    v.dot(v).max(R::new(LTC_TINY)).inverse_sqrt()
+    v.dot(v).max(R::new(1e-30)).inverse_sqrt()
 }
 
 /// Vector form factor, times 2π and signed, of a pentagon; a quad's last two vertices coincide. Each normal is the
@@ -343,7 +343,7 @@ pub fn ltc_quad_begin<R: Real>(
         let q: [(R::Vec3, R); 4] = core::array::from_fn(|i| (p[(i + turns) % 4], rises[(i + turns) % 4]));
         let cross = |from: usize, to: usize| {
             let (side, fall) = (q[to].0 - q[from].0, q[from].1 - q[to].1);
-            let t = (base_height + q[from].1) / fall.max(R::new(LTC_TINY));
+            let t = ((base_height + q[from].1) / fall.max(R::new(LTC_TINY))).max(zero).min(R::new(1.0));
             (q[from].0 + side * t, q[from].1 - fall * t)
         };
         let up = q.map(|q| base_height + q.1 > zero);

@@ -7,8 +7,12 @@ pub const LTC_ROUGHNESS_FLOOR: f64 = 0.02;
 
 /// Smallest length by which anything is divided.
 pub const LTC_TINY: f64 = 1e-37;
-/// Extent of a sphere or tube together with its distance, times [`LTC_HEADROOM`], below which it shrinks to nothing.
+/// Extent of a polygon, sphere or tube together with its distance, times [`LTC_HEADROOM`], below which it shrinks to nothing.
 pub const LTC_SMALLEST: f64 = 1e-19;
+/// Least depth of a cone, in units of the disk's distance and size together, squared.
+pub const LTC_SHALLOWEST: f64 = 1e-18;
+/// Largest product of the reciprocal distances of two points of a disk's rim, in the same units.
+pub const LTC_NEAREST_PAIR: f64 = 1e18;
 /// Smallest square by which a tube's own directions are divided.
 pub const LTC_TUBE_TINY: f64 = 1e-20;
 
@@ -80,7 +84,7 @@ pub fn ltc_extent<R: Real>(v: R::Vec3) -> R {
 
 /// `v` over its length, whatever that is; zero for a zero vector.
 pub fn ltc_direction<R: Real>(v: R::Vec3) -> R::Vec3 {
-    let scaled = v * (R::new(1.0) / ltc_extent::<R>(v).clamp(R::new(LTC_TINY), R::new(8e37)));
+    let scaled = v * (R::new(1.0) / ltc_extent::<R>(v).clamp(R::new(1e-35), R::new(8e37)));
     scaled * scaled.dot(scaled).max(R::new(1e-3)).inverse_sqrt()
 }
 

@@ -148,8 +148,9 @@ pub fn ltc_tube_begin<R: Real>(
     let left = q_b - q_a;
     let above = a_height.max(b_height) > zero;
 
-    let a_inverse = a_squared.max(r * r).max(tiny).inverse_sqrt();
-    let b_inverse = b_squared.max(r * r).max(tiny).inverse_sqrt();
+    let least = R::new(LTC_TUBE_TINY);
+    let a_inverse = a_squared.max(r * r).max(least).inverse_sqrt();
+    let b_inverse = b_squared.max(r * r).max(least).inverse_sqrt();
     let farther = b_squared.max(r * r) * b_inverse - a_squared.max(r * r) * a_inverse;
     let turned = sine * (farther / length.max(tiny)).clamp(-one, one);
     let reach = r.min(length);

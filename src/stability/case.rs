@@ -143,6 +143,30 @@ pub struct Case {
 }
 
 impl Case {
+    /// Shows position, normal, view and the light's vectors, each as three numbers, and its radius as one.
+    pub fn each_vector(&mut self, show: &mut dyn FnMut(&mut [f32])) {
+        let mut vector = |v: &mut Vec3| {
+            let numbers: &mut [f32; 3] = v.as_mut();
+            show(numbers);
+        };
+        [&mut self.position, &mut self.normal, &mut self.view].into_iter().for_each(&mut vector);
+        match &mut self.shape {
+            Shape::Quad { corners, .. } => corners.iter_mut().for_each(vector),
+            Shape::Polygon { vertices, .. } => vertices.iter_mut().for_each(vector),
+            Shape::Disk { center, half_x, half_y, .. } => {
+                [center, half_x, half_y].into_iter().for_each(vector);
+            }
+            Shape::Sphere { center, radius } => {
+                vector(center);
+                show(core::slice::from_mut(radius));
+            }
+            Shape::Tube { start, end, radius, .. } => {
+                [start, end].into_iter().for_each(vector);
+                show(core::slice::from_mut(radius));
+            }
+        }
+    }
+
     /// Values (diffuse, specular, fresnel) by the twin of the include on the CPU, in the precision of `R`, at the quality
     /// level that `effects` holds.
     pub fn twin<R: Real>(&self, table: &Table, effects: Effects) -> [f64; 3] {

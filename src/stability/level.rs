@@ -19,6 +19,16 @@ pub const TERM: f64 = 4.768_371_582e-7 / core::f64::consts::TAU;
 /// Largest coordinate that a device may take for zero: scaled by 1/16, as the include does at first, it is subnormal.
 pub const VANISHING: f32 = 16.0 * f32::MIN_POSITIVE;
 
+/// By how much a filter that weights texels by 8 binary places, as graphics processors have it, moves specular light and Schlick's part at
+/// most: it takes the texels of a roughness and a view that are up to 1/256 of a texel away. Measured: 0.0104 among 19,426 inputs,
+/// 0.001 of the albedo for all but a few.
+pub const FILTERED: f64 = 0.02;
+
+/// The largest number of every vector, and every radius, is within these or nothing where values are promised on devices that put
+/// products in another order as well. The include brings lengths into range by reciprocals of up to 1e37; in another order two
+/// of those may meet before either meets the length that it belongs to.
+pub const REORDERED: core::ops::RangeInclusive<f32> = 1e-9..=1e9;
+
 /// How far quads and polygons may be off at the level [`Quality::Fast`], in [`FAST_FAMILIES`]: the form factor, and specular light
 /// beside what the catalogue allows it; absolute, and measured on the worst device that conforms. Elsewhere that level promises no
 /// more of them than physical values: a flat light is its four directions there, so one that touches the surface or is much larger
@@ -56,7 +66,7 @@ pub fn at_level(quality: Quality, case: &Case, specular: f64) -> Case {
         return case;
     }
     case.form_factor = None;
-    case.specular_bound += (AZIMUTH / case.tilt().max(1e-30)).min(UNROUND) * specular + FAINT;
+    case.specular_bound = fast_bound(&case, specular);
     if !case.shape.vertices().is_empty() {
         let bounded = FAST_FAMILIES.contains(&case.family) && case.bound != Bound::Physical;
         let [form_factor, specular] = FAST;
@@ -68,10 +78,15 @@ pub fn at_level(quality: Quality, case: &Case, specular: f64) -> Case {
     case
 }
 
+/// The catalogue's bound of specular light with what the lobe of [`Quality::Fast`] adds to it.
+fn fast_bound(case: &Case, specular: f64) -> f64 {
+    case.specular_bound + (AZIMUTH / case.tilt().max(1e-30)).min(UNROUND) * specular + FAINT
+}
+
 /// How far the form factor and the specular value may be from exact arithmetic on the numbers that the device is given, texels
-/// included; the Schlick part may be twice as far as the specular value. Nothing for inputs of which no more is promised than
+/// included, which makes the latter `specular`; the Schlick part may be twice as far as that. Nothing for inputs of which no more is promised than
 /// that values are physical, which are those, too, that a device which flushes subnormal numbers cannot tell from zero.
-pub fn conforming_bound(quality: Quality, case: &Case) -> Option<[f64; 2]> {
+pub fn conforming_bound(quality: Quality, case: &Case, specular: f64) -> Option<[f64; 2]> {
     let is_flat = !case.shape.vertices().is_empty();
     if quality == Quality::Fast && is_flat {
         let [form_factor, specular] = FAST;
@@ -88,10 +103,14 @@ pub fn conforming_bound(quality: Quality, case: &Case) -> Option<[f64; 2]> {
         Bound::Absolute(bound) => bound,
         Bound::Relative(bound) => bound * case.form_factor.unwrap_or(1.0),
     };
-    let [factor, specular] = FACTORS;
+    let plain_specular = match quality {
+        Quality::Fast => fast_bound(case, specular),
+        _ => case.specular_bound,
+    };
+    let [factor, specular_factor] = FACTORS;
     let terms = match &case.shape {
         Shape::Polygon { vertices, .. } => TERM * vertices.len() as f64,
         _ => 0.0,
     };
-    Some([factor * plain + terms, specular * case.specular_bound + terms])
+    Some([factor * plain + terms, specular_factor * plain_specular + terms])
 }

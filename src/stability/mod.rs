@@ -24,7 +24,9 @@ pub use case::{Bound, Case, Shape, batch};
 pub use check::{Outcome, offences, outcomes};
 pub use families::{CATALOGUE, Family, cases, cases_of, perpendicular};
 pub use known::{KNOWN, KnownCase};
-pub use level::{FACTORS, FAST, FAST_FAMILIES, TERM, VANISHING, at_level, conforming_bound};
+pub use level::{
+    FACTORS, FAST, FAST_FAMILIES, FILTERED, REORDERED, TERM, VANISHING, at_level, conforming_bound,
+};
 pub use random::{Random, neighbour};
 pub use rows::{Bounds, FamilyRow, Worst};
 pub use run::Run;

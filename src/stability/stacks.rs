@@ -1,10 +1,9 @@
 //! The same cases through one shader stack after another: compilers, drivers and processors that share no code, measured
 //! against exact arithmetic and against one another.
 
-use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
-use super::{Bound, Case, Outcome, Shape, at_level, batch, cases, offences, outcomes};
+use super::{Bound, Case, Outcome, VANISHING, at_level, batch, cases, offences, outcomes};
 use crate::device::{Batch, Device, DeviceError, Program};
 use crate::effects::{Effects, EffectsError, Quality, wgsl};
 use crate::table::Table;
@@ -197,9 +196,11 @@ impl Inputs {
 fn is_decided_by_subnormals(case: &Case, exact: &[f64; 3], table: &Table, effects: Effects) -> bool {
     let mut flushed = case.clone();
     let mut any = false;
-    each_coordinate(&mut flushed, &mut |coordinate| {
-        if *coordinate != 0.0 && coordinate.abs() < 16.0 * f32::MIN_POSITIVE {
-            (*coordinate, any) = (0.0, true);
+    flushed.each_vector(&mut |numbers| {
+        for number in numbers {
+            if *number != 0.0 && number.abs() < VANISHING {
+                (*number, any) = (0.0, true);
+            }
         }
     });
     if !any {
@@ -215,29 +216,6 @@ fn is_decided_by_subnormals(case: &Case, exact: &[f64; 3], table: &Table, effect
     // Written so that what is not a number counts as different.
     let limits = [limit, case.specular_bound, 2.0 * case.specular_bound];
     !differences.zip(limits).all(|(difference, limit)| difference <= 0.5 * limit)
-}
-
-/// Shows every number of a case's geometry.
-fn each_coordinate(case: &mut Case, show: &mut dyn FnMut(&mut f32)) {
-    let mut vector = |v: &mut Vec3| [&mut v.x, &mut v.y, &mut v.z].into_iter().for_each(&mut *show);
-    [&mut case.position, &mut case.normal, &mut case.view].into_iter().for_each(&mut vector);
-    let mut last = None;
-    match &mut case.shape {
-        Shape::Quad { corners, .. } => corners.iter_mut().for_each(vector),
-        Shape::Polygon { vertices, .. } => vertices.iter_mut().for_each(vector),
-        Shape::Disk { center, half_x, half_y, .. } => [center, half_x, half_y].into_iter().for_each(vector),
-        Shape::Sphere { center, radius } => {
-            vector(center);
-            last = Some(radius);
-        }
-        Shape::Tube { start, end, radius, .. } => {
-            [start, end].into_iter().for_each(vector);
-            last = Some(radius);
-        }
-    }
-    if let Some(radius) = last {
-        show(radius);
-    }
 }
 
 /// The effects that the kernel of `wgsl/evaluate.wgsl` calls for, at a level.

@@ -113,7 +113,7 @@ pub fn disk(
 /// Integrates `brdf` over the sphere around `center`, relative to the surface point in its frame. From within, the
 /// sphere covers every direction. For the rest see [`polygon`].
 pub fn sphere(brdf: &dyn Brdf, view: DVec3, center: DVec3, radius: f64, tolerance: f64) -> Truth {
-    if center.length() <= radius {
+    if radius > 0.0 && center.length() <= radius {
         return solid_angle(brdf, view, &Everything, tolerance);
     }
     match Ellipse::of_sphere(center, radius) {

@@ -248,6 +248,7 @@ impl Builder {
             let local = [center, axis, parallel];
             self.disk("without area, but for rounding", &STANDARD, local, Bound::Physical, 0.0);
             self.sphere("without area", &STANDARD, center, 0.0, Bound::Zero);
+            self.sphere("without area", &STANDARD, nothing, 0.0, Bound::Zero);
             self.disk("in the light's plane", &STANDARD, [nothing, axis, center], Bound::Zero, 0.0);
         }
     }

@@ -22,11 +22,12 @@ let child, said = '';
 const finish = (status, text) => {
     (status === 0 ? process.stdout : process.stderr).write(`${text}\n`);
     child.on('exit', () => {
-        // Processes of the browser's own may still write there for a moment.
+        // Processes of the browser's own may still be ending.
         rmSync(profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 200 });
         process.exit(status);
     });
-    child.kill('SIGKILL');
+    // With all processes of its own, which write to the profile too.
+    process.kill(-child.pid, 'SIGKILL');
 };
 
 const server = createServer((request, response) => {
@@ -49,7 +50,7 @@ const server = createServer((request, response) => {
 });
 server.listen(0, '127.0.0.1', () => {
     const page = `http://127.0.0.1:${server.address().port}/`;
-    child = spawn(browser, [...flags.map(flag => flag.replaceAll('PROFILE', profile)), page]);
+    child = spawn(browser, [...flags.map(flag => flag.replaceAll('PROFILE', profile)), page], { detached: true });
     child.stderr.on('data', part => { said += part; });
     child.on('error', error => { process.stderr.write(`${browser}: ${error.message}\n`); process.exit(1); });
     setTimeout(() => finish(1, `no answer within two minutes: ${said.slice(-1500)}`), 120_000);
