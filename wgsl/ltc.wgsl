@@ -470,7 +470,8 @@ fn ltc_schlick(surface: LtcSurface, lobe: LtcLobe, toward: vec3<f32>) -> f32 {
     // cos^2 of half the angle between view and light: the half vector's cosine, squared.
     var along = surface.sin_view * turned.x + surface.cos_view * turned.z;
     if (ltc_use_cheap_distance) {
-        along *= ltc_inverse_length(turned);
+        // Of a faint light: squares as small as that of its form factor count.
+        along *= inverseSqrt(max(dot(turned, turned), LTC_TINY));
     }
     let half_cosine = clamp(0.5 + 0.5 * along, 0.0, 1.0);
     // The root may round up, and a fused product and difference sees by how much.
@@ -705,10 +706,10 @@ fn ltc_edge_weight(cosine: f32, scale: f32) -> f32 {
 /// length of `normal` is that sine over the scale. It comes from ltc_edge_normal, which keeps the distance at which an
 /// edge passes the surface point.
 fn ltc_edge_turn(cosine: f32, weight: f32, normal: vec3<f32>) -> f32 {
-    return select(0.0, LTC_PI * ltc_inverse_length(normal) - 2.0 * weight, cosine < 0.0);
+    return select(0.0, LTC_PI * inverseSqrt(max(dot(normal, normal), LTC_TINY)) - 2.0 * weight, cosine < 0.0);
 }
 
-/// 1 over the length of `v`, at most 1e15: the product of two of them, times what rounding leaves of a cross product that
+/// 1 over the length of a point `v`, at most 1e15: the product of two of them, times what rounding leaves of a cross product that
 /// vanishes, has a square in range.
 fn ltc_inverse_length(v: vec3<f32>) -> f32 {
     return inverseSqrt(max(dot(v, v), 1e-30));
@@ -780,7 +781,7 @@ fn ltc_part(start: vec3<f32>, end: vec3<f32>) -> vec4<f32> {
 
 /// What a part from ltc_part times its weight lacks if the angle is obtuse; see ltc_edge_turn.
 fn ltc_part_turn(part: vec4<f32>, weight: f32, normal: vec3<f32>, present: bool) -> vec3<f32> {
-    return select(vec3<f32>(0.0), normal * (LTC_PI * ltc_inverse_length(normal)) - part.xyz * (2.0 * weight), present & (part.w < 0.0));
+    return select(vec3<f32>(0.0), normal * (LTC_PI * inverseSqrt(max(dot(normal, normal), LTC_TINY))) - part.xyz * (2.0 * weight), present & (part.w < 0.0));
 }
 
 /// The sine of the elevation down to which a vertex counts as above the lobe's horizon. Where that horizon is the

@@ -890,14 +890,6 @@ vec3 ltc_all_around(LtcLobe lobe) {
 }
 #endif
 
-#if (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_GGX) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && !LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_CHEAP_DISTANCE && LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || LTC_QUAD || LTC_TEXTURED
-// 1 over the length of `v`, at most 1e15: the product of two of them, times what rounding leaves of a cross product that
-// vanishes, has a square in range.
-float ltc_inverse_length(vec3 v) {
-    return inversesqrt(max(dot(v, v), 1e-30));
-}
-#endif
-
 #if (LTC_ANISOTROPIC && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_DISK && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_POLYGON && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && LTC_QUAD && !LTC_SECOND_LOBE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_CLEARCOAT && LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_DISK && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_DISK && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_DISK && LTC_SECOND_LOBE && LTC_SHEEN) || LTC_GGX || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_POLYGON && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_POLYGON && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE) || (LTC_QUAD && LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE) || (LTC_QUAD && !LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_QUAD && LTC_SECOND_LOBE && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && !LTC_SECOND_LOBE && LTC_TUBE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_SPHERE) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ROUGH_DIFFUSE && LTC_SECOND_LOBE && LTC_TUBE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (!LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_SPHERE) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TEXTURED) || (LTC_SECOND_LOBE && LTC_SHEEN && LTC_TUBE)
 // Schlick's factor (1 - v.h)^5 for light from a direction `toward` in the lobe's space, of any length.
 float ltc_schlick(LtcSurface surface, LtcLobe lobe, vec3 toward) {
@@ -918,12 +910,12 @@ float ltc_schlick(LtcSurface surface, LtcLobe lobe, vec3 toward) {
     if (ltc_use_cheap_distance) {
         float _e30 = along;
         vec3 _e31 = turned;
-        float _e32 = ltc_inverse_length(_e31);
-        along = (_e30 * _e32);
+        vec3 _e32 = turned;
+        along = (_e30 * inversesqrt(max(dot(_e31, _e32), LTC_TINY)));
     }
 #endif
-    float _e34 = along;
-    float half_cosine = clamp((0.5 + (0.5 * _e34)), 0.0, 1.0);
+    float _e38 = along;
+    float half_cosine = clamp((0.5 + (0.5 * _e38)), 0.0, 1.0);
     float f = max((1.0 - (half_cosine * inversesqrt(max(half_cosine, 1e-20)))), 0.0);
     return ((((f * f) * f) * f) * f);
 }
@@ -1383,8 +1375,15 @@ float ltc_edge_weight(float cosine, float scale) {
 // length of `normal` is that sine over the scale. It comes from ltc_edge_normal, which keeps the distance at which an
 // edge passes the surface point.
 float ltc_edge_turn(float cosine, float weight, vec3 normal) {
-    float _e4 = ltc_inverse_length(normal);
-    return ((cosine < 0.0) ? ((LTC_PI * _e4) - (2.0 * weight)) : 0.0);
+    return ((cosine < 0.0) ? ((LTC_PI * inversesqrt(max(dot(normal, normal), LTC_TINY))) - (2.0 * weight)) : 0.0);
+}
+#endif
+
+#if LTC_QUAD || LTC_TEXTURED
+// 1 over the length of a point `v`, at most 1e15: the product of two of them, times what rounding leaves of a cross product that
+// vanishes, has a square in range.
+float ltc_inverse_length(vec3 v) {
+    return inversesqrt(max(dot(v, v), 1e-30));
 }
 #endif
 
@@ -1497,8 +1496,7 @@ vec4 ltc_part(vec3 start, vec3 end) {
 #if (LTC_ANISOTROPIC && LTC_QUAD) || (LTC_ANISOTROPIC && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_ANISOTROPIC && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_QUAD) || (LTC_CLEARCOAT && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_CLEARCOAT && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_QUAD) || (LTC_GGX && !LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_GGX && LTC_SECOND_LOBE && LTC_TEXTURED) || (LTC_QUAD && LTC_ROUGH_DIFFUSE) || (LTC_QUAD && LTC_SHEEN) || (LTC_ROUGH_DIFFUSE && LTC_TEXTURED) || (LTC_SHEEN && LTC_TEXTURED)
 // What a part from ltc_part times its weight lacks if the angle is obtuse; see ltc_edge_turn.
 vec3 ltc_part_turn(vec4 part, float weight, vec3 normal, bool present) {
-    float _e7 = ltc_inverse_length(normal);
-    return ((present && (part.w < 0.0)) ? ((normal * (LTC_PI * _e7)) - (part.xyz * (2.0 * weight))) : vec3(0.0));
+    return ((present && (part.w < 0.0)) ? ((normal * (LTC_PI * inversesqrt(max(dot(normal, normal), LTC_TINY)))) - (part.xyz * (2.0 * weight))) : vec3(0.0));
 }
 #endif
 

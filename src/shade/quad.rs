@@ -139,7 +139,7 @@ pub fn ltc_edge_weight<R: Real>(cosine: R, scale: R) -> R {
 /// What the `weight` from [`ltc_edge_weight`] lacks if the angle is obtuse; see the include.
 pub fn ltc_edge_turn<R: Real>(cosine: R, weight: R, normal: R::Vec3) -> R {
     if cosine < R::new(0.0) {
-        R::new(core::f64::consts::PI) * ltc_inverse_length::<R>(normal) - R::new(2.0) * weight
+        R::new(core::f64::consts::PI) * inverse_tiny::<R>(normal) - R::new(2.0) * weight
     } else {
         R::new(0.0)
     }
@@ -148,6 +148,11 @@ pub fn ltc_edge_turn<R: Real>(cosine: R, weight: R, normal: R::Vec3) -> R {
 /// 1 over the length of `v`.
 pub fn ltc_inverse_length<R: Real>(v: R::Vec3) -> R {
     v.dot(v).max(R::new(1e-30)).inverse_sqrt()
+}
+
+/// 1 over the length of a normal, however small.
+fn inverse_tiny<R: Real>(normal: R::Vec3) -> R {
+    normal.dot(normal).max(R::new(LTC_TINY)).inverse_sqrt()
 }
 
 /// Vector form factor, times 2π and signed, of a pentagon; a quad's last two vertices coincide. Each normal is the
@@ -234,7 +239,7 @@ pub fn ltc_pentagon<R: Real>(vertices: [R::Vec3; 5], normals: [R::Vec3; 5], lowe
         let cosine = start.dot(end);
         let (product, weight) = (start.cross(end - start), ltc_edge_weight(cosine, one));
         if cosine < zero {
-            normals[i] * (pi * ltc_inverse_length::<R>(normals[i])) - product * weight
+            normals[i] * (pi * inverse_tiny::<R>(normals[i])) - product * weight
         } else {
             product * weight
         }

@@ -35,13 +35,32 @@ pub const REORDERED: core::ops::RangeInclusive<f32> = 1e-9..=1e9;
 /// than its distance loses the digits of that distance, on plain devices too.
 pub const FAST: [f64; 2] = [1e-3, 2e-3];
 
-/// The families of flat lights in which the level [`Quality::Fast`] is bounded.
-pub const FAST_FAMILIES: [&str; 5] = [
+/// The families of flat lights in which the level [`Quality::Fast`] is bounded: all but those that touch the surface or the point.
+pub const FAST_FAMILIES: [&str; 24] = [
     "size at least a tenth of the distance",
     "distant",
     "distant, on the horizon",
     "distant, on a turned horizon",
+    "an edge subtends nearly a half turn",
+    "an edge subtends nearly nothing",
     "ceiling",
+    "the point in the light",
+    "a million times the distance",
+    "edge-on",
+    "vertices on the horizon",
+    "flat on the horizon",
+    "seen along the normal",
+    "seen along the surface",
+    "mirrors",
+    "normal and view of any length",
+    "between the table's texels",
+    "far from the origin",
+    "in units of 2^-40 to 2^40",
+    "a million times as long as wide",
+    "simple polygon",
+    "thousands of vertices",
+    "spiral",
+    "around the nadir",
 ];
 
 /// Rounding of view and normal turns the azimuth of a view by up to this over the sine of its angle to the normal.
