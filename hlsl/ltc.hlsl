@@ -1380,7 +1380,7 @@ bool ltc_is_above(float3 v, float tolerance)
 // That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
 float ltc_above_tolerance(LtcLobe lobe)
 {
-    return (1e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0));
+    return (4e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0));
 }
 #endif
 

@@ -1472,7 +1472,7 @@ bool ltc_is_above(
 float ltc_above_tolerance(
     LtcLobe lobe
 ) {
-    return 0.000000000001 * metal::min(metal::dot(lobe.frame_z, lobe.frame_z), 1.0);
+    return 0.000000000004 * metal::min(metal::dot(lobe.frame_z, lobe.frame_z), 1.0);
 }
 #endif
 

@@ -644,7 +644,7 @@ fn ltc_is_above(v: vec3<f32>, tolerance: f32) -> bool {
 
 /// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
 fn ltc_above_tolerance(lobe: LtcLobe) -> f32 {
-    return 1e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0);
+    return 4e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0);
 }
 
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that

@@ -1315,7 +1315,7 @@ bool ltc_is_above(vec3 v, float tolerance) {
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
 float ltc_above_tolerance(LtcLobe lobe) {
-    return (1e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0));
+    return (4e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0));
 }
 #endif
 

@@ -106,7 +106,7 @@ pub fn ltc_is_above<R: Real>(v: R::Vec3, tolerance: R) -> bool {
 
 /// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
 pub fn ltc_above_tolerance<R: Real>(lobe: &LtcLobe<R>) -> R {
-    R::new(1e-12) * lobe.frame_z.dot(lobe.frame_z).min(R::new(1.0))
+    R::new(4e-12) * lobe.frame_z.dot(lobe.frame_z).min(R::new(1.0))
 }
 
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that where

@@ -283,6 +283,42 @@ fn a_tube_that_is_lifted_by_noise_is_condemned() {
     assert_eq!(summary.offences("upright tubes"), [""; 0]);
 }
 
+/// Seen along the normal a lobe's horizon is the surface's: a polygon cut there lies along it with rounding above and below, and each
+/// edge may be compiled in its own way.
+#[test]
+fn an_outline_along_a_lobes_horizon_stays_closed_however_products_are_fused() {
+    let vertices = [
+        [-19.041767, -39.318264, 13.45296],
+        [-42.747704, 17.609138, -7.647664],
+        [17.694363, 35.727367, 8.674816],
+        [41.4003, -21.200037, 29.77544],
+    ];
+    let case = Case {
+        family: "seen along the normal",
+        position: glam::Vec3::new(-0.082439795, -0.25007284, -0.038955566),
+        normal: glam::Vec3::new(1.2055333, 0.70406824, -0.087689236),
+        view: glam::Vec3::new(0.5442805, 0.31787765, -0.03958776),
+        roughness: 0.4562227,
+        shape: Shape::Polygon { vertices: vertices.map(glam::Vec3::from).to_vec(), two_sided: false },
+        bound: Bound::Absolute(2e-6),
+        specular_bound: 3.84e-5,
+        form_factor: None,
+    };
+    let device = |seed| {
+        let policy = Policy { fusion: Freedom::Either, consistent: seed % 2 == 0, seed, ..STRICT };
+        (format!("fused by chance {seed}"), policy)
+    };
+    let devices: Vec<_> = (0..400).map(device).collect();
+    let cases = [case];
+    let narrow = replaced("return 4e-12 * min(", "return 1e-12 * min(");
+    let summary = summarised(&narrow, Quality::Finest, &cases, &devices);
+    assert!(!summary.is_kept(), "the tolerance could be narrower: {summary}");
+    for quality in [Quality::Standard, Quality::Fine, Quality::Finest] {
+        let summary = summarised(WGSL_INCLUDE, quality, &cases, &devices);
+        assert_eq!(summary.offences(&format!("{quality}, fused")), [""; 0]);
+    }
+}
+
 /// Several machines of a kernel do not disturb each other, and a run depends on nothing but its policy and number.
 #[test]
 fn runs_are_repeated_to_the_bit() {

@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use softbox::effects::Quality;
-use softbox::stability::{FILTERED, Stack, StackRow};
+use softbox::stability::{Stack, StackRow};
 
 use level::Level;
 
@@ -32,8 +32,6 @@ fn is_long() -> bool {
 enum Promise {
     /// The stated bounds, times a factor.
     Bounds(f64),
-    /// The stated bounds of form factors; specular light differs from the reference by no more than a filter of 8 bits may move it.
-    Filtered,
     /// It must go beyond them, or the bounds, the cases or this harness could not fail.
     Beyond,
 }
@@ -96,7 +94,6 @@ fn trial(way: &Arc<Way>, quality: Quality, rows: &Rows) -> Trial {
         let keeps = match way.promise {
             Promise::Bounds(factor) if factor <= 1.0 => row.beyond == 0 && row.worst_share() <= factor,
             Promise::Bounds(factor) => row.not_finite == 0 && row.worst_share() <= factor,
-            Promise::Filtered => row.not_finite == 0 && row.share <= 1.0 && row.from_reference <= FILTERED,
             Promise::Beyond => row.beyond > 0,
         };
         let verdict = if keeps {

@@ -28,7 +28,7 @@ the lobe is not quite round and the rounding of the view turns it. Quads and pol
 **Bounds hold** on devices that round to nearest and keep the order of the text. On any other device that conforms to WGSL, bounds
 are {} times as wide for form factors and {} times for specular light. Values stay finite on devices that also reorder sums and
 products, where the largest number of each vector and each radius is nothing or within {:e} to {:e}. A texture filter with weights of 8 bits,
-as graphics processors have it, moves specular light by up to {} besides, by 0.001 of the albedo as a rule.
+as graphics processors have it, moves specular light by up to {} of the albedo besides.
 
 **Not promised:** digits that coordinates do not have. Where a bound follows a gap, a size or an offset, the table gives the range that it has
 over the family. Bounds of 1 or more say no more than physics and count as `physical`.
