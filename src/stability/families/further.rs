@@ -50,8 +50,9 @@ impl Builder {
 
     /// Edges whose ends are seen in nearly opposite or nearly the same directions, and vertices next to the point.
     fn edges(&mut self, count: usize) {
-        for _ in 0..count {
-            let gap = self.random.log(1e-8, 1.0);
+        for i in 0..count {
+            // The first is wide enough to count among these, however few there are.
+            let gap = self.random.log(if i == 0 { 0.3 } else { 1e-8 }, 1.0);
             let (left, right) = (self.random.log(0.2, 3.0), self.random.log(0.2, 3.0));
             let height = self.random.log(0.2, 3.0);
             let corners = [(-left, 0.0), (right, 0.0), (right, 1.0), (-left, 1.0)]
