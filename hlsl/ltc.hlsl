@@ -267,8 +267,12 @@ struct LtcOutline {
     bool crossed;
     // The first vertex, scaled as the points of the last edge.
     float3 reference;
-    // Whether anything of the last edge lies above the horizon.
-    bool above;
+    // Whether the last edge starts above the horizon; otherwise what is left of it starts on the horizon.
+    bool starts_up;
+    // Whether it ends above the horizon.
+    bool ends_up;
+    // Whether it ends at the first vertex.
+    bool returns;
     // Where what is left of the last edge starts.
     float3 start;
     // Whether the last edge leaves the upper side or comes back to it, so that a piece of the horizon closes it.
@@ -305,6 +309,14 @@ struct LtcOutlineLobe {
     bool crossed;
     // Its offset from the first vertex.
     float3 crossing_offset;
+    // Whether there has been an edge.
+    bool begun;
+    // Whether the first vertex counts as above the lobe's horizon.
+    bool first_up;
+    // Whether the last vertex so far does.
+    bool previous_up;
+    // Whether the outline's first point on the surface's horizon does.
+    bool crossing_up;
     // Vector form factor so far in the lobe's space, times 2 pi and signed.
     float3 sum;
     // The lobe's share above the surface; for a cheap horizon only.
@@ -1364,23 +1376,6 @@ float3 ltc_offset(float3 origin, float3 reference, float3 target_point, float3 o
     float3 near = ((offset - (reference * length_difference)) * inverse_length);
     float3 far = ((target_point * inverse_length) - reference);
     return ((dot(offset, offset) < (0.0625 * dot(origin, origin))) ? near : far);
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
-// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
-bool ltc_is_above(float3 v, float tolerance)
-{
-    return ((v.z > 0.0) | ((v.z * v.z) < (tolerance * dot(v, v))));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
-float ltc_above_tolerance(LtcLobe lobe)
-{
-    return (4e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0));
 }
 #endif
 
@@ -2542,11 +2537,14 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
     float a_height = (near ? (height + dot(surface.normal, a_offset)) : dot(surface.normal, a));
     float b_height = (near ? (height + dot(surface.normal, b_offset)) : dot(surface.normal, b));
     bool a_up = outline.previous_up;
-    bool _e113 = outline.first_up;
-    float3 _e115 = outline.first;
-    bool b_up = (all((corner == _e115)) ? _e113 : (b_height > 0.0));
+    float3 _e112 = outline.first;
+    outline.returns = all((corner == _e112));
+    bool _e118 = outline.first_up;
+    bool _e120 = outline.returns;
+    bool b_up = (_e120 ? _e118 : (b_height > 0.0));
     outline.previous_up = b_up;
-    outline.above = (a_up | b_up);
+    outline.starts_up = a_up;
+    outline.ends_up = b_up;
     outline.closes = false;
     if (!((a_up | b_up))) {
         return;
@@ -2556,35 +2554,35 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
     end_1 = b;
     end_offset = b_offset;
     if (!((a_up & b_up))) {
-        float3 above_2 = (a_up ? a : b);
+        float3 above = (a_up ? a : b);
         float3 below = (a_up ? b : a);
         float3 above_offset = (a_up ? a_offset : b_offset);
         float3 below_offset = (a_up ? b_offset : a_offset);
         float high = max((a_up ? a_height : b_height), 0.0);
         float low = min((a_up ? b_height : a_height), 0.0);
         float t = (high / max((high - low), LTC_TINY));
-        float3 between = (above_2 + ((below - above_2) * t));
+        float3 between = (above + ((below - above) * t));
         float3 crossing = (between - (surface.normal * dot(surface.normal, between)));
         float3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-        bool _e158 = outline.crossed;
-        if (_e158) {
+        bool _e161 = outline.crossed;
+        if (_e161) {
             float3 base = outline.crossing;
             float3 base_offset = outline.crossing_offset;
             float3 horizon_start = (a_up ? crossing : base);
             float3 horizon_end = (a_up ? base : crossing);
             float3 horizon_start_offset = (a_up ? crossing_offset : base_offset);
             float3 horizon_end_offset = (a_up ? base_offset : crossing_offset);
-            const float3 _e168 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
-            float3 normal_13 = (surface.normal * dot(surface.normal, _e168));
+            const float3 _e171 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
+            float3 normal_13 = (surface.normal * dot(surface.normal, _e171));
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
             outline.horizon_normal = normal_13;
-            float _e181 = outline.diffuse;
-            const float3 _e183 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
-            outline.diffuse = (_e181 - dot(surface.normal, _e183));
+            float _e184 = outline.diffuse;
+            const float3 _e186 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
+            outline.diffuse = (_e184 - dot(surface.normal, _e186));
         } else {
             outline.crossed = true;
             outline.crossing = crossing;
@@ -2595,27 +2593,27 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, float3 corner
         end_1 = (a_up ? crossing : b);
         end_offset = (a_up ? crossing_offset : b_offset);
     }
-    float3 _e194 = start_1;
-    float3 _e195 = end_1;
-    float3 _e196 = end_offset;
-    float3 _e197 = start_offset;
-    const float3 _e199 = ltc_edge_normal(_e194, _e195, (_e196 - _e197));
-    float3 _e201 = start_1;
-    outline.start = _e201;
-    float3 _e203 = end_1;
-    outline.end = _e203;
-    float3 _e205 = start_offset;
-    outline.start_offset = _e205;
-    float3 _e207 = end_offset;
-    outline.end_offset = _e207;
-    outline.normal = _e199;
-    float _e210 = outline.diffuse;
-    float3 _e212 = start_1;
-    float3 _e213 = start_offset;
-    float3 _e214 = end_1;
-    float3 _e215 = end_offset;
-    const float3 _e216 = ltc_edge_from(reference_7, _e212, _e213, _e214, _e215, _e199);
-    outline.diffuse = (_e210 - dot(surface.normal, _e216));
+    float3 _e197 = start_1;
+    float3 _e198 = end_1;
+    float3 _e199 = end_offset;
+    float3 _e200 = start_offset;
+    const float3 _e202 = ltc_edge_normal(_e197, _e198, (_e199 - _e200));
+    float3 _e204 = start_1;
+    outline.start = _e204;
+    float3 _e206 = end_1;
+    outline.end = _e206;
+    float3 _e208 = start_offset;
+    outline.start_offset = _e208;
+    float3 _e210 = end_offset;
+    outline.end_offset = _e210;
+    outline.normal = _e202;
+    float _e213 = outline.diffuse;
+    float3 _e215 = start_1;
+    float3 _e216 = start_offset;
+    float3 _e217 = end_1;
+    float3 _e218 = end_offset;
+    const float3 _e219 = ltc_edge_from(reference_7, _e215, _e216, _e217, _e218, _e202);
+    outline.diffuse = (_e213 - dot(surface.normal, _e219));
     return;
 }
 #endif
@@ -2627,76 +2625,69 @@ LtcOutlineLobe ltc_outline_lobe_begin()
     LtcOutlineLobe sum_3 = (LtcOutlineLobe)0;
 
     sum_3.crossed = false;
+    sum_3.begun = false;
     sum_3.sum = (0.0).xxx;
     sum_3.share = 1.0;
-    LtcOutlineLobe _e8 = sum_3;
-    const LtcOutlineLobe ltcoutlinelobe = _e8;
+    LtcOutlineLobe _e10 = sum_3;
+    const LtcOutlineLobe ltcoutlinelobe = _e10;
     return ltcoutlinelobe;
 }
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space, `exact` as for
-// ltc_crossing.
-void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_4, LtcLobe lobe, float3 reference, float3 a, float3 a_offset, float3 b, float3 b_offset, float3 normal, bool exact)
+// Adds one edge that lies above the surface or on its horizon, in the lobe's space, and what of it counts as above the lobe's
+// horizon; `exact` as for ltc_crossing.
+void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_4, float3 reference, float3 a, float3 a_offset, bool a_up, float3 b, float3 b_offset, bool b_up, float3 normal, bool exact)
 {
     float3 start = (float3)0;
     float3 start_offset = (float3)0;
     float3 end = (float3)0;
     float3 end_offset = (float3)0;
 
-    const float3 _e9 = ltc_transform(lobe, a);
-    const float3 _e10 = ltc_transform(lobe, b);
-    const float3 _e11 = ltc_transform(lobe, a_offset);
-    const float3 _e12 = ltc_transform(lobe, b_offset);
-    const float3 _e13 = ltc_transform_normal(lobe, normal);
-    const float _e14 = ltc_above_tolerance(lobe);
-    const bool _e15 = ltc_is_above(_e9, _e14);
-    const bool _e16 = ltc_is_above(_e10, _e14);
-    if (!((_e15 | _e16))) {
+    if (!((a_up | b_up))) {
         return;
     }
-    start = _e9;
-    start_offset = _e11;
-    end = _e10;
-    end_offset = _e12;
-    if (!((_e15 & _e16))) {
-        float3 above = (_e15 ? _e9 : _e10);
-        float3 below = (_e15 ? _e10 : _e9);
-        float3 above_offset = (_e15 ? _e11 : _e12);
-        float3 below_offset = (_e15 ? _e12 : _e11);
+    start = a;
+    start_offset = a_offset;
+    end = b;
+    end_offset = b_offset;
+    if (!((a_up & b_up))) {
+        float3 above = (a_up ? a : b);
+        float3 below = (a_up ? b : a);
+        float3 above_offset = (a_up ? a_offset : b_offset);
+        float3 below_offset = (a_up ? b_offset : a_offset);
         float high = max(above.z, 0.0);
         float t = (high / max((high - min(below.z, 0.0)), LTC_TINY));
-        const float3 _e41 = ltc_crossing(above, below, (_e15 ? _e13 : -(_e13)), exact);
+        const float3 _e34 = ltc_crossing(above, below, (a_up ? normal : -(normal)), exact);
         bool distant = (max(dot(above_offset, above_offset), dot(below_offset, below_offset)) < (0.0625 * dot(reference, reference)));
-        float3 crossing_offset_1 = (distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e41 - reference));
-        bool _e55 = sum_4.crossed;
-        if (_e55) {
+        float3 crossing_offset_1 = (distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e34 - reference));
+        bool _e48 = sum_4.crossed;
+        if (_e48) {
             float3 base = sum_4.crossing;
             float3 base_offset = sum_4.crossing_offset;
-            float3 horizon_start = (_e15 ? _e41 : base);
-            float3 horizon_end = (_e15 ? base : _e41);
-            float3 _e63 = sum_4.sum;
-            const float3 _e67 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
-            const float3 _e68 = ltc_edge_from(reference, horizon_start, (_e15 ? crossing_offset_1 : base_offset), horizon_end, (_e15 ? base_offset : crossing_offset_1), _e67);
-            sum_4.sum = (_e63 - _e68);
+            float3 horizon_start = (a_up ? _e34 : base);
+            float3 horizon_end = (a_up ? base : _e34);
+            float3 _e56 = sum_4.sum;
+            const float3 _e60 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
+            const float3 _e61 = ltc_edge_from(reference, horizon_start, (a_up ? crossing_offset_1 : base_offset), horizon_end, (a_up ? base_offset : crossing_offset_1), _e60);
+            sum_4.sum = (_e56 - _e61);
         } else {
             sum_4.crossed = true;
-            sum_4.crossing = _e41;
+            sum_4.crossing = _e34;
             sum_4.crossing_offset = crossing_offset_1;
         }
-        start = (_e15 ? _e9 : _e41);
-        start_offset = (_e15 ? _e11 : crossing_offset_1);
-        end = (_e15 ? _e41 : _e10);
-        end_offset = (_e15 ? crossing_offset_1 : _e12);
+        start = (a_up ? a : _e34);
+        start_offset = (a_up ? a_offset : crossing_offset_1);
+        end = (a_up ? _e34 : b);
+        end_offset = (a_up ? crossing_offset_1 : b_offset);
     }
-    float3 _e79 = sum_4.sum;
-    float3 _e80 = start;
-    float3 _e81 = start_offset;
-    float3 _e82 = end;
-    float3 _e83 = end_offset;
-    const float3 _e84 = ltc_edge_from(reference, _e80, _e81, _e82, _e83, _e13);
-    sum_4.sum = (_e79 - _e84);
+    float3 _e72 = sum_4.sum;
+    float3 _e73 = start;
+    float3 _e74 = start_offset;
+    float3 _e75 = end;
+    float3 _e76 = end_offset;
+    const float3 _e77 = ltc_edge_from(reference, _e73, _e74, _e75, _e76, normal);
+    sum_4.sum = (_e72 - _e77);
     return;
 }
 #endif
@@ -2723,28 +2714,58 @@ void ltc_outline_lobe_add(inout LtcOutlineLobe sum_5, LtcOutline outline, LtcLob
     }
 #endif
 #if !LTC_CHEAP_HORIZON
-    if ((!(ltc_use_cheap_horizon) & !(outline.above))) {
+    if ((!(ltc_use_cheap_horizon) & !((outline.starts_up | outline.ends_up)))) {
         return;
     }
 #endif
-    const float3 _e25 = ltc_transform(lobe, outline.reference);
+    const float3 _e27 = ltc_transform(lobe, outline.reference);
 #if LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon) {
-        float3 _e28 = sum_5.sum;
-        const float3 _e30 = ltc_transform(lobe, outline.start);
-        const float3 _e32 = ltc_transform(lobe, outline.start_offset);
-        const float3 _e34 = ltc_transform(lobe, outline.end);
-        const float3 _e36 = ltc_transform(lobe, outline.end_offset);
-        const float3 _e38 = ltc_transform_normal(lobe, outline.normal);
-        const float3 _e39 = ltc_edge_from(_e25, _e30, _e32, _e34, _e36, _e38);
-        sum_5.sum = (_e28 - _e39);
+        float3 _e30 = sum_5.sum;
+        const float3 _e32 = ltc_transform(lobe, outline.start);
+        const float3 _e34 = ltc_transform(lobe, outline.start_offset);
+        const float3 _e36 = ltc_transform(lobe, outline.end);
+        const float3 _e38 = ltc_transform(lobe, outline.end_offset);
+        const float3 _e40 = ltc_transform_normal(lobe, outline.normal);
+        const float3 _e41 = ltc_edge_from(_e27, _e32, _e34, _e36, _e38, _e40);
+        sum_5.sum = (_e30 - _e41);
         return;
     }
 #endif
-    if (outline.closes) {
-        ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal, true);
+    const float3 _e44 = ltc_transform(lobe, outline.start);
+    const float3 _e46 = ltc_transform(lobe, outline.end);
+    bool _e51 = sum_5.previous_up;
+    bool _e53 = sum_5.begun;
+    bool start_up = ((_e53 & outline.starts_up) ? _e51 : (_e44.z > 0.0));
+    bool _e58 = sum_5.begun;
+    if (!(_e58)) {
+        sum_5.begun = true;
+        sum_5.first_up = start_up;
     }
-    ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal, false);
+    bool _e67 = sum_5.first_up;
+    bool end_up = ((outline.returns & outline.ends_up) ? _e67 : (_e46.z > 0.0));
+    sum_5.previous_up = end_up;
+    if ((outline.starts_up != outline.ends_up)) {
+        bool crossing_up = (outline.starts_up ? end_up : start_up);
+        if (outline.closes) {
+            bool _e80 = sum_5.crossing_up;
+            bool horizon_start_up = (outline.starts_up ? crossing_up : _e80);
+            bool _e84 = sum_5.crossing_up;
+            bool horizon_end_up = (outline.starts_up ? _e84 : crossing_up);
+            const float3 _e88 = ltc_transform(lobe, outline.horizon_start);
+            const float3 _e90 = ltc_transform(lobe, outline.horizon_start_offset);
+            const float3 _e92 = ltc_transform(lobe, outline.horizon_end);
+            const float3 _e94 = ltc_transform(lobe, outline.horizon_end_offset);
+            const float3 _e96 = ltc_transform_normal(lobe, outline.horizon_normal);
+            ltc_outline_lobe_edge(sum_5, _e27, _e88, _e90, horizon_start_up, _e92, _e94, horizon_end_up, _e96, true);
+        } else {
+            sum_5.crossing_up = crossing_up;
+        }
+    }
+    const float3 _e100 = ltc_transform(lobe, outline.start_offset);
+    const float3 _e102 = ltc_transform(lobe, outline.end_offset);
+    const float3 _e104 = ltc_transform_normal(lobe, outline.normal);
+    ltc_outline_lobe_edge(sum_5, _e27, _e44, _e100, start_up, _e46, _e102, end_up, _e104, false);
     return;
 }
 #endif

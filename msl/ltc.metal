@@ -271,8 +271,12 @@ struct LtcOutline {
     bool crossed;
     // The first vertex, scaled as the points of the last edge.
     metal::packed_float3 reference;
-    // Whether anything of the last edge lies above the horizon.
-    bool above;
+    // Whether the last edge starts above the horizon; otherwise what is left of it starts on the horizon.
+    bool starts_up;
+    // Whether it ends above the horizon.
+    bool ends_up;
+    // Whether it ends at the first vertex.
+    bool returns;
     // Where what is left of the last edge starts.
     metal::packed_float3 start;
     // Whether the last edge leaves the upper side or comes back to it, so that a piece of the horizon closes it.
@@ -308,7 +312,15 @@ struct LtcOutlineLobe {
     // Whether there is such a point.
     bool crossed;
     // Its offset from the first vertex.
-    metal::float3 crossing_offset;
+    metal::packed_float3 crossing_offset;
+    // Whether there has been an edge.
+    bool begun;
+    // Whether the first vertex counts as above the lobe's horizon.
+    bool first_up;
+    // Whether the last vertex so far does.
+    bool previous_up;
+    // Whether the outline's first point on the surface's horizon does.
+    bool crossing_up;
     // Vector form factor so far in the lobe's space, times 2 pi and signed.
     metal::packed_float3 sum;
     // The lobe's share above the surface; for a cheap horizon only.
@@ -1453,26 +1465,6 @@ metal::float3 ltc_offset(
     metal::float3 near = (offset - (reference * length_difference)) * inverse_length;
     metal::float3 far = (target_point * inverse_length) - reference;
     return (metal::dot(offset, offset) < (0.0625 * metal::dot(origin, origin))) ? near : far;
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
-// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
-bool ltc_is_above(
-    metal::float3 v,
-    float tolerance
-) {
-    return (v.z > 0.0) | ((v.z * v.z) < (tolerance * metal::dot(v, v)));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
-float ltc_above_tolerance(
-    LtcLobe lobe
-) {
-    return 0.000000000004 * metal::min(metal::dot(lobe.frame_z, lobe.frame_z), 1.0);
 }
 #endif
 
@@ -2733,11 +2725,14 @@ void ltc_outline_add(
     float a_height = near ? (height + metal::dot(surface.normal, a_offset)) : metal::dot(surface.normal, a);
     float b_height = near ? (height + metal::dot(surface.normal, b_offset)) : metal::dot(surface.normal, b);
     bool a_up = outline.previous_up;
-    bool _e113 = outline.first_up;
-    metal::float3 _e115 = outline.first;
-    bool b_up = metal::all(corner == _e115) ? _e113 : (b_height > 0.0);
+    metal::float3 _e112 = outline.first;
+    outline.returns = metal::all(corner == _e112);
+    bool _e118 = outline.first_up;
+    bool _e120 = outline.returns;
+    bool b_up = _e120 ? _e118 : (b_height > 0.0);
     outline.previous_up = b_up;
-    outline.above = a_up | b_up;
+    outline.starts_up = a_up;
+    outline.ends_up = b_up;
     outline.closes = false;
     if (!((a_up | b_up))) {
         return;
@@ -2747,35 +2742,35 @@ void ltc_outline_add(
     end_1 = b;
     end_offset = b_offset;
     if (!((a_up & b_up))) {
-        metal::float3 above_2 = a_up ? a : b;
+        metal::float3 above = a_up ? a : b;
         metal::float3 below = a_up ? b : a;
         metal::float3 above_offset = a_up ? a_offset : b_offset;
         metal::float3 below_offset = a_up ? b_offset : a_offset;
         float high = metal::max(a_up ? a_height : b_height, 0.0);
         float low = metal::min(a_up ? b_height : a_height, 0.0);
         float t = high / metal::max(high - low, LTC_TINY);
-        metal::float3 between = above_2 + ((below - above_2) * t);
+        metal::float3 between = above + ((below - above) * t);
         metal::float3 crossing = between - (surface.normal * metal::dot(surface.normal, between));
         metal::float3 crossing_offset = above_offset + ((below_offset - above_offset) * t);
-        bool _e158 = outline.crossed;
-        if (_e158) {
+        bool _e161 = outline.crossed;
+        if (_e161) {
             metal::float3 base = outline.crossing;
             metal::float3 base_offset = outline.crossing_offset;
             metal::float3 horizon_start = a_up ? crossing : base;
             metal::float3 horizon_end = a_up ? base : crossing;
             metal::float3 horizon_start_offset = a_up ? crossing_offset : base_offset;
             metal::float3 horizon_end_offset = a_up ? base_offset : crossing_offset;
-            metal::float3 _e168 = ltc_edge_normal(horizon_start, horizon_end, horizon_end_offset - horizon_start_offset);
-            metal::float3 normal_13 = surface.normal * metal::dot(surface.normal, _e168);
+            metal::float3 _e171 = ltc_edge_normal(horizon_start, horizon_end, horizon_end_offset - horizon_start_offset);
+            metal::float3 normal_13 = surface.normal * metal::dot(surface.normal, _e171);
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
             outline.horizon_normal = normal_13;
-            float _e181 = outline.diffuse;
-            metal::float3 _e183 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
-            outline.diffuse = _e181 - metal::dot(surface.normal, _e183);
+            float _e184 = outline.diffuse;
+            metal::float3 _e186 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
+            outline.diffuse = _e184 - metal::dot(surface.normal, _e186);
         } else {
             outline.crossed = true;
             outline.crossing = crossing;
@@ -2786,27 +2781,27 @@ void ltc_outline_add(
         end_1 = a_up ? crossing : b;
         end_offset = a_up ? crossing_offset : b_offset;
     }
-    metal::float3 _e194 = start_1;
-    metal::float3 _e195 = end_1;
-    metal::float3 _e196 = end_offset;
-    metal::float3 _e197 = start_offset;
-    metal::float3 _e199 = ltc_edge_normal(_e194, _e195, _e196 - _e197);
-    metal::float3 _e201 = start_1;
-    outline.start = _e201;
-    metal::float3 _e203 = end_1;
-    outline.end = _e203;
-    metal::float3 _e205 = start_offset;
-    outline.start_offset = _e205;
-    metal::float3 _e207 = end_offset;
-    outline.end_offset = _e207;
-    outline.normal = _e199;
-    float _e210 = outline.diffuse;
-    metal::float3 _e212 = start_1;
-    metal::float3 _e213 = start_offset;
-    metal::float3 _e214 = end_1;
-    metal::float3 _e215 = end_offset;
-    metal::float3 _e216 = ltc_edge_from(reference_7, _e212, _e213, _e214, _e215, _e199);
-    outline.diffuse = _e210 - metal::dot(surface.normal, _e216);
+    metal::float3 _e197 = start_1;
+    metal::float3 _e198 = end_1;
+    metal::float3 _e199 = end_offset;
+    metal::float3 _e200 = start_offset;
+    metal::float3 _e202 = ltc_edge_normal(_e197, _e198, _e199 - _e200);
+    metal::float3 _e204 = start_1;
+    outline.start = _e204;
+    metal::float3 _e206 = end_1;
+    outline.end = _e206;
+    metal::float3 _e208 = start_offset;
+    outline.start_offset = _e208;
+    metal::float3 _e210 = end_offset;
+    outline.end_offset = _e210;
+    outline.normal = _e202;
+    float _e213 = outline.diffuse;
+    metal::float3 _e215 = start_1;
+    metal::float3 _e216 = start_offset;
+    metal::float3 _e217 = end_1;
+    metal::float3 _e218 = end_offset;
+    metal::float3 _e219 = ltc_edge_from(reference_7, _e215, _e216, _e217, _e218, _e202);
+    outline.diffuse = _e213 - metal::dot(surface.normal, _e219);
     return;
 }
 #endif
@@ -2817,24 +2812,26 @@ LtcOutlineLobe ltc_outline_lobe_begin(
 ) {
     LtcOutlineLobe sum_3 = {};
     sum_3.crossed = false;
+    sum_3.begun = false;
     sum_3.sum = metal::float3(0.0);
     sum_3.share = 1.0;
-    LtcOutlineLobe _e8 = sum_3;
-    return _e8;
+    LtcOutlineLobe _e10 = sum_3;
+    return _e10;
 }
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space, `exact` as for
-// ltc_crossing.
+// Adds one edge that lies above the surface or on its horizon, in the lobe's space, and what of it counts as above the lobe's
+// horizon; `exact` as for ltc_crossing.
 void ltc_outline_lobe_edge(
     thread LtcOutlineLobe& sum_4,
-    LtcLobe lobe,
     metal::float3 reference,
     metal::float3 a,
     metal::float3 a_offset,
+    bool a_up,
     metal::float3 b,
     metal::float3 b_offset,
+    bool b_up,
     metal::float3 normal,
     bool exact
 ) {
@@ -2842,58 +2839,50 @@ void ltc_outline_lobe_edge(
     metal::float3 start_offset = {};
     metal::float3 end = {};
     metal::float3 end_offset = {};
-    metal::float3 _e9 = ltc_transform(lobe, a);
-    metal::float3 _e10 = ltc_transform(lobe, b);
-    metal::float3 _e11 = ltc_transform(lobe, a_offset);
-    metal::float3 _e12 = ltc_transform(lobe, b_offset);
-    metal::float3 _e13 = ltc_transform_normal(lobe, normal);
-    float _e14 = ltc_above_tolerance(lobe);
-    bool _e15 = ltc_is_above(_e9, _e14);
-    bool _e16 = ltc_is_above(_e10, _e14);
-    if (!((_e15 | _e16))) {
+    if (!((a_up | b_up))) {
         return;
     }
-    start = _e9;
-    start_offset = _e11;
-    end = _e10;
-    end_offset = _e12;
-    if (!((_e15 & _e16))) {
-        metal::float3 above = _e15 ? _e9 : _e10;
-        metal::float3 below = _e15 ? _e10 : _e9;
-        metal::float3 above_offset = _e15 ? _e11 : _e12;
-        metal::float3 below_offset = _e15 ? _e12 : _e11;
+    start = a;
+    start_offset = a_offset;
+    end = b;
+    end_offset = b_offset;
+    if (!((a_up & b_up))) {
+        metal::float3 above = a_up ? a : b;
+        metal::float3 below = a_up ? b : a;
+        metal::float3 above_offset = a_up ? a_offset : b_offset;
+        metal::float3 below_offset = a_up ? b_offset : a_offset;
         float high = metal::max(above.z, 0.0);
         float t = high / metal::max(high - metal::min(below.z, 0.0), LTC_TINY);
-        metal::float3 _e41 = ltc_crossing(above, below, _e15 ? _e13 : -(_e13), exact);
+        metal::float3 _e34 = ltc_crossing(above, below, a_up ? normal : -(normal), exact);
         bool distant = metal::max(metal::dot(above_offset, above_offset), metal::dot(below_offset, below_offset)) < (0.0625 * metal::dot(reference, reference));
-        metal::float3 crossing_offset_1 = distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e41 - reference);
-        bool _e55 = sum_4.crossed;
-        if (_e55) {
+        metal::float3 crossing_offset_1 = distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e34 - reference);
+        bool _e48 = sum_4.crossed;
+        if (_e48) {
             metal::float3 base = sum_4.crossing;
             metal::float3 base_offset = sum_4.crossing_offset;
-            metal::float3 horizon_start = _e15 ? _e41 : base;
-            metal::float3 horizon_end = _e15 ? base : _e41;
-            metal::float3 _e63 = sum_4.sum;
-            metal::float3 _e67 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
-            metal::float3 _e68 = ltc_edge_from(reference, horizon_start, _e15 ? crossing_offset_1 : base_offset, horizon_end, _e15 ? base_offset : crossing_offset_1, _e67);
-            sum_4.sum = _e63 - _e68;
+            metal::float3 horizon_start = a_up ? _e34 : base;
+            metal::float3 horizon_end = a_up ? base : _e34;
+            metal::float3 _e56 = sum_4.sum;
+            metal::float3 _e60 = ltc_edge_normal(horizon_start, horizon_end, horizon_end - horizon_start);
+            metal::float3 _e61 = ltc_edge_from(reference, horizon_start, a_up ? crossing_offset_1 : base_offset, horizon_end, a_up ? base_offset : crossing_offset_1, _e60);
+            sum_4.sum = _e56 - _e61;
         } else {
             sum_4.crossed = true;
-            sum_4.crossing = _e41;
+            sum_4.crossing = _e34;
             sum_4.crossing_offset = crossing_offset_1;
         }
-        start = _e15 ? _e9 : _e41;
-        start_offset = _e15 ? _e11 : crossing_offset_1;
-        end = _e15 ? _e41 : _e10;
-        end_offset = _e15 ? crossing_offset_1 : _e12;
+        start = a_up ? a : _e34;
+        start_offset = a_up ? a_offset : crossing_offset_1;
+        end = a_up ? _e34 : b;
+        end_offset = a_up ? crossing_offset_1 : b_offset;
     }
-    metal::float3 _e79 = sum_4.sum;
-    metal::float3 _e80 = start;
-    metal::float3 _e81 = start_offset;
-    metal::float3 _e82 = end;
-    metal::float3 _e83 = end_offset;
-    metal::float3 _e84 = ltc_edge_from(reference, _e80, _e81, _e82, _e83, _e13);
-    sum_4.sum = _e79 - _e84;
+    metal::float3 _e72 = sum_4.sum;
+    metal::float3 _e73 = start;
+    metal::float3 _e74 = start_offset;
+    metal::float3 _e75 = end;
+    metal::float3 _e76 = end_offset;
+    metal::float3 _e77 = ltc_edge_from(reference, _e73, _e74, _e75, _e76, normal);
+    sum_4.sum = _e72 - _e77;
     return;
 }
 #endif
@@ -2923,28 +2912,58 @@ void ltc_outline_lobe_add(
     }
 #endif
 #if !LTC_CHEAP_HORIZON
-    if (!(ltc_use_cheap_horizon) & !(outline.above)) {
+    if (!(ltc_use_cheap_horizon) & !((outline.starts_up | outline.ends_up))) {
         return;
     }
 #endif
-    metal::float3 _e25 = ltc_transform(lobe, outline.reference);
+    metal::float3 _e27 = ltc_transform(lobe, outline.reference);
 #if LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon) {
-        metal::float3 _e28 = sum_5.sum;
-        metal::float3 _e30 = ltc_transform(lobe, outline.start);
-        metal::float3 _e32 = ltc_transform(lobe, outline.start_offset);
-        metal::float3 _e34 = ltc_transform(lobe, outline.end);
-        metal::float3 _e36 = ltc_transform(lobe, outline.end_offset);
-        metal::float3 _e38 = ltc_transform_normal(lobe, outline.normal);
-        metal::float3 _e39 = ltc_edge_from(_e25, _e30, _e32, _e34, _e36, _e38);
-        sum_5.sum = _e28 - _e39;
+        metal::float3 _e30 = sum_5.sum;
+        metal::float3 _e32 = ltc_transform(lobe, outline.start);
+        metal::float3 _e34 = ltc_transform(lobe, outline.start_offset);
+        metal::float3 _e36 = ltc_transform(lobe, outline.end);
+        metal::float3 _e38 = ltc_transform(lobe, outline.end_offset);
+        metal::float3 _e40 = ltc_transform_normal(lobe, outline.normal);
+        metal::float3 _e41 = ltc_edge_from(_e27, _e32, _e34, _e36, _e38, _e40);
+        sum_5.sum = _e30 - _e41;
         return;
     }
 #endif
-    if (outline.closes) {
-        ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal, true);
+    metal::float3 _e44 = ltc_transform(lobe, outline.start);
+    metal::float3 _e46 = ltc_transform(lobe, outline.end);
+    bool _e51 = sum_5.previous_up;
+    bool _e53 = sum_5.begun;
+    bool start_up = (_e53 & outline.starts_up) ? _e51 : (_e44.z > 0.0);
+    bool _e58 = sum_5.begun;
+    if (!(_e58)) {
+        sum_5.begun = true;
+        sum_5.first_up = start_up;
     }
-    ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal, false);
+    bool _e67 = sum_5.first_up;
+    bool end_up = (outline.returns & outline.ends_up) ? _e67 : (_e46.z > 0.0);
+    sum_5.previous_up = end_up;
+    if (outline.starts_up != outline.ends_up) {
+        bool crossing_up = outline.starts_up ? end_up : start_up;
+        if (outline.closes) {
+            bool _e80 = sum_5.crossing_up;
+            bool horizon_start_up = outline.starts_up ? crossing_up : _e80;
+            bool _e84 = sum_5.crossing_up;
+            bool horizon_end_up = outline.starts_up ? _e84 : crossing_up;
+            metal::float3 _e88 = ltc_transform(lobe, outline.horizon_start);
+            metal::float3 _e90 = ltc_transform(lobe, outline.horizon_start_offset);
+            metal::float3 _e92 = ltc_transform(lobe, outline.horizon_end);
+            metal::float3 _e94 = ltc_transform(lobe, outline.horizon_end_offset);
+            metal::float3 _e96 = ltc_transform_normal(lobe, outline.horizon_normal);
+            ltc_outline_lobe_edge(sum_5, _e27, _e88, _e90, horizon_start_up, _e92, _e94, horizon_end_up, _e96, true);
+        } else {
+            sum_5.crossing_up = crossing_up;
+        }
+    }
+    metal::float3 _e100 = ltc_transform(lobe, outline.start_offset);
+    metal::float3 _e102 = ltc_transform(lobe, outline.end_offset);
+    metal::float3 _e104 = ltc_transform_normal(lobe, outline.normal);
+    ltc_outline_lobe_edge(sum_5, _e27, _e44, _e100, start_up, _e46, _e102, end_up, _e104, false);
     return;
 }
 #endif

@@ -20,7 +20,7 @@ fn committed_translations_are_fresh() {
         let committed = tools::read(&root.join(target.path()));
         assert!(
             committed == include(target).as_bytes(),
-            "{} is not what the include translates to; `softbox build --update` writes it anew",
+            "{} is not what the include translates to; `softbox build --update .` writes it anew",
             target.path()
         );
     }

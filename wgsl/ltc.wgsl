@@ -636,17 +636,6 @@ fn ltc_offset(origin: vec3<f32>, reference: vec3<f32>, target_point: vec3<f32>, 
     return select(far, near, dot(offset, offset) < 0.0625 * dot(origin, origin));
 }
 
-/// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
-/// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
-fn ltc_is_above(v: vec3<f32>, tolerance: f32) -> bool {
-    return (v.z > 0.0) | (v.z * v.z < tolerance * dot(v, v));
-}
-
-/// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
-fn ltc_above_tolerance(lobe: LtcLobe) -> f32 {
-    return 4e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0);
-}
-
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that
 /// where it passes the surface point closely. `normal` has the direction of above x below; `exact` tells that it does not come
 /// from these points and their rounding.
@@ -1296,8 +1285,12 @@ struct LtcOutline {
     crossed: bool,
     /// The first vertex, scaled as the points of the last edge.
     reference: vec3<f32>,
-    /// Whether anything of the last edge lies above the horizon.
-    above: bool,
+    /// Whether the last edge starts above the horizon; otherwise what is left of it starts on the horizon.
+    starts_up: bool,
+    /// Whether it ends above the horizon.
+    ends_up: bool,
+    /// Whether it ends at the first vertex.
+    returns: bool,
     /// Where what is left of the last edge starts.
     start: vec3<f32>,
     /// Whether the last edge leaves the upper side or comes back to it, so that a piece of the horizon closes it.
@@ -1332,6 +1325,14 @@ struct LtcOutlineLobe {
     crossed: bool,
     /// Its offset from the first vertex.
     crossing_offset: vec3<f32>,
+    /// Whether there has been an edge.
+    begun: bool,
+    /// Whether the first vertex counts as above the lobe's horizon.
+    first_up: bool,
+    /// Whether the last vertex so far does.
+    previous_up: bool,
+    /// Whether the outline's first point on the surface's horizon does.
+    crossing_up: bool,
     /// Vector form factor so far in the lobe's space, times 2 pi and signed.
     sum: vec3<f32>,
     /// The lobe's share above the surface; for a cheap horizon only.
@@ -1419,9 +1420,11 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
     // A vertex on the horizon counts as above for both of its edges or for neither, whatever rounding says at each of them:
     // otherwise the horizon would not close the outline.
     let a_up = (*outline).previous_up;
-    let b_up = select(b_height > 0.0, (*outline).first_up, all(corner == (*outline).first));
+    (*outline).returns = all(corner == (*outline).first);
+    let b_up = select(b_height > 0.0, (*outline).first_up, (*outline).returns);
     (*outline).previous_up = b_up;
-    (*outline).above = a_up | b_up;
+    (*outline).starts_up = a_up;
+    (*outline).ends_up = b_up;
     (*outline).closes = false;
     if (!(a_up | b_up)) {
         return;
@@ -1482,6 +1485,7 @@ fn ltc_outline_add(outline: ptr<function, LtcOutline>, surface: LtcSurface, corn
 fn ltc_outline_lobe_begin() -> LtcOutlineLobe {
     var sum: LtcOutlineLobe;
     sum.crossed = false;
+    sum.begun = false;
     sum.sum = vec3<f32>(0.0);
     sum.share = 1.0;
     return sum;
@@ -1496,7 +1500,7 @@ fn ltc_outline_lobe_add(sum: ptr<function, LtcOutlineLobe>, outline: LtcOutline,
         (*sum).sum -= ltc_fast_edge(ltc_fast_unit(ltc_transform(lobe, outline.start)), ltc_fast_unit(ltc_transform(lobe, outline.end)));
         return;
     }
-    if (!ltc_use_cheap_horizon & !outline.above) {
+    if (!ltc_use_cheap_horizon & !(outline.starts_up | outline.ends_up)) {
         return;
     }
     let reference = ltc_transform(lobe, outline.reference);
@@ -1505,38 +1509,51 @@ fn ltc_outline_lobe_add(sum: ptr<function, LtcOutlineLobe>, outline: LtcOutline,
             ltc_transform(lobe, outline.end), ltc_transform(lobe, outline.end_offset), ltc_transform_normal(lobe, outline.normal));
         return;
     }
-    if (outline.closes) {
-        ltc_outline_lobe_edge(sum, lobe, reference, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal, true);
+    let start = ltc_transform(lobe, outline.start);
+    let end = ltc_transform(lobe, outline.end);
+    // As for the surface's horizon: a point that edges share counts as above for all of them or for none, whatever rounding says
+    // at each.
+    let start_up = select(start.z > 0.0, (*sum).previous_up, (*sum).begun & outline.starts_up);
+    if (!(*sum).begun) {
+        (*sum).begun = true;
+        (*sum).first_up = start_up;
     }
-    ltc_outline_lobe_edge(sum, lobe, reference, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal, false);
+    let end_up = select(end.z > 0.0, (*sum).first_up, outline.returns & outline.ends_up);
+    (*sum).previous_up = end_up;
+    if (outline.starts_up != outline.ends_up) {
+        let crossing_up = select(start_up, end_up, outline.starts_up);
+        if (outline.closes) {
+            let horizon_start_up = select((*sum).crossing_up, crossing_up, outline.starts_up);
+            let horizon_end_up = select(crossing_up, (*sum).crossing_up, outline.starts_up);
+            ltc_outline_lobe_edge(sum, reference, ltc_transform(lobe, outline.horizon_start), ltc_transform(lobe, outline.horizon_start_offset), horizon_start_up,
+                ltc_transform(lobe, outline.horizon_end), ltc_transform(lobe, outline.horizon_end_offset), horizon_end_up, ltc_transform_normal(lobe, outline.horizon_normal), true);
+        } else {
+            (*sum).crossing_up = crossing_up;
+        }
+    }
+    ltc_outline_lobe_edge(sum, reference, start, ltc_transform(lobe, outline.start_offset), start_up,
+        end, ltc_transform(lobe, outline.end_offset), end_up, ltc_transform_normal(lobe, outline.normal), false);
 }
 
-/// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space, `exact` as for
-/// ltc_crossing.
-fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, b: vec3<f32>, b_offset: vec3<f32>, normal: vec3<f32>, exact: bool) {
-    let m_a = ltc_transform(lobe, a);
-    let m_b = ltc_transform(lobe, b);
-    let m_a_offset = ltc_transform(lobe, a_offset);
-    let m_b_offset = ltc_transform(lobe, b_offset);
-    let m_normal = ltc_transform_normal(lobe, normal);
-    let tolerance = ltc_above_tolerance(lobe);
-    let a_up = ltc_is_above(m_a, tolerance);
-    let b_up = ltc_is_above(m_b, tolerance);
+/// Adds one edge that lies above the surface or on its horizon, in the lobe's space, and what of it counts as above the lobe's
+/// horizon; `exact` as for ltc_crossing.
+fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, reference: vec3<f32>, a: vec3<f32>, a_offset: vec3<f32>, a_up: bool,
+    b: vec3<f32>, b_offset: vec3<f32>, b_up: bool, normal: vec3<f32>, exact: bool) {
     if (!(a_up | b_up)) {
         return;
     }
-    var start = m_a;
-    var start_offset = m_a_offset;
-    var end = m_b;
-    var end_offset = m_b_offset;
+    var start = a;
+    var start_offset = a_offset;
+    var end = b;
+    var end_offset = b_offset;
     if (!(a_up & b_up)) {
-        let above = select(m_b, m_a, a_up);
-        let below = select(m_a, m_b, a_up);
-        let above_offset = select(m_b_offset, m_a_offset, a_up);
-        let below_offset = select(m_a_offset, m_b_offset, a_up);
+        let above = select(b, a, a_up);
+        let below = select(a, b, a_up);
+        let above_offset = select(b_offset, a_offset, a_up);
+        let below_offset = select(a_offset, b_offset, a_up);
         let high = max(above.z, 0.0);
         let t = high / max(high - min(below.z, 0.0), LTC_TINY);
-        let crossing = ltc_crossing(above, below, select(-m_normal, m_normal, a_up), exact);
+        let crossing = ltc_crossing(above, below, select(-normal, normal, a_up), exact);
         // The offsets of a distant light hold more digits than its points. Elsewhere a crossing may be a direction only, and
         // its offset has to be that of the point that stands for it.
         let distant = max(dot(above_offset, above_offset), dot(below_offset, below_offset)) < 0.0625 * dot(reference, reference);
@@ -1553,12 +1570,12 @@ fn ltc_outline_lobe_edge(sum: ptr<function, LtcOutlineLobe>, lobe: LtcLobe, refe
             (*sum).crossing = crossing;
             (*sum).crossing_offset = crossing_offset;
         }
-        start = select(crossing, m_a, a_up);
-        start_offset = select(crossing_offset, m_a_offset, a_up);
-        end = select(m_b, crossing, a_up);
-        end_offset = select(m_b_offset, crossing_offset, a_up);
+        start = select(crossing, a, a_up);
+        start_offset = select(crossing_offset, a_offset, a_up);
+        end = select(b, crossing, a_up);
+        end_offset = select(b_offset, crossing_offset, a_up);
     }
-    (*sum).sum -= ltc_edge_from(reference, start, start_offset, end, end_offset, m_normal);
+    (*sum).sum -= ltc_edge_from(reference, start, start_offset, end, end_offset, normal);
 }
 
 /// The form factor of a closed outline, 0 to 1. Its error is that of ltc_quad, and grows with the root of the number

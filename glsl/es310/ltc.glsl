@@ -268,8 +268,12 @@ struct LtcOutline {
     bool crossed;
     // The first vertex, scaled as the points of the last edge.
     vec3 reference;
-    // Whether anything of the last edge lies above the horizon.
-    bool above;
+    // Whether the last edge starts above the horizon; otherwise what is left of it starts on the horizon.
+    bool starts_up;
+    // Whether it ends above the horizon.
+    bool ends_up;
+    // Whether it ends at the first vertex.
+    bool returns;
     // Where what is left of the last edge starts.
     vec3 start;
     // Whether the last edge leaves the upper side or comes back to it, so that a piece of the horizon closes it.
@@ -306,6 +310,14 @@ struct LtcOutlineLobe {
     bool crossed;
     // Its offset from the first vertex.
     vec3 crossing_offset;
+    // Whether there has been an edge.
+    bool begun;
+    // Whether the first vertex counts as above the lobe's horizon.
+    bool first_up;
+    // Whether the last vertex so far does.
+    bool previous_up;
+    // Whether the outline's first point on the surface's horizon does.
+    bool crossing_up;
     // Vector form factor so far in the lobe's space, times 2 pi and signed.
     vec3 sum;
     // The lobe's share above the surface; for a cheap horizon only.
@@ -1301,21 +1313,6 @@ vec3 ltc_offset(vec3 origin, vec3 reference, vec3 target_point, vec3 offset) {
     vec3 near = ((offset - (reference * length_difference)) * inverse_length);
     vec3 far = ((target_point * inverse_length) - reference);
     return ((dot(offset, offset) < (0.0625 * dot(origin, origin))) ? near : far);
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Whether `v` lies above the lobe's horizon, or on it but for rounding. Where that horizon is the surface's,
-// as it is seen along the normal, rounding would scatter the points of a light cut there to both sides.
-bool ltc_is_above(vec3 v, float tolerance) {
-    return ((v.z > 0.0) || ((v.z * v.z) < (tolerance * dot(v, v))));
-}
-#endif
-
-#if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
-float ltc_above_tolerance(LtcLobe lobe) {
-    return (4e-12 * min(dot(lobe.frame_z, lobe.frame_z), 1.0));
 }
 #endif
 
@@ -2316,7 +2313,7 @@ vec3 ltc_quad(LtcSurface surface, LtcLobes lobes, vec3 a, vec3 b, vec3 c, vec3 d
 #if LTC_POLYGON
 // Starts an outline at its first vertex.
 LtcOutline ltc_outline_begin(LtcSurface surface, vec3 corner) {
-    LtcOutline outline = LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    LtcOutline outline = LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, false, false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     vec3 to_first = ((corner * LTC_HEADROOM) - (surface.position * LTC_HEADROOM));
     outline.first = corner;
     float _e11 = ltc_extent(to_first);
@@ -2429,11 +2426,14 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
     float a_height = (near ? (height + dot(surface.normal, a_offset)) : dot(surface.normal, a));
     float b_height = (near ? (height + dot(surface.normal, b_offset)) : dot(surface.normal, b));
     bool a_up = outline.previous_up;
-    bool _e113 = outline.first_up;
-    vec3 _e115 = outline.first;
-    bool b_up = (all(equal(corner, _e115)) ? _e113 : (b_height > 0.0));
+    vec3 _e112 = outline.first;
+    outline.returns = all(equal(corner, _e112));
+    bool _e118 = outline.first_up;
+    bool _e120 = outline.returns;
+    bool b_up = (_e120 ? _e118 : (b_height > 0.0));
     outline.previous_up = b_up;
-    outline.above = (a_up || b_up);
+    outline.starts_up = a_up;
+    outline.ends_up = b_up;
     outline.closes = false;
     if (!((a_up || b_up))) {
         return;
@@ -2443,35 +2443,35 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
     end_1 = b;
     end_offset = b_offset;
     if (!((a_up && b_up))) {
-        vec3 above_2 = (a_up ? a : b);
+        vec3 above = (a_up ? a : b);
         vec3 below = (a_up ? b : a);
         vec3 above_offset = (a_up ? a_offset : b_offset);
         vec3 below_offset = (a_up ? b_offset : a_offset);
         float high = max((a_up ? a_height : b_height), 0.0);
         float low = min((a_up ? b_height : a_height), 0.0);
         float t = (high / max((high - low), LTC_TINY));
-        vec3 between = (above_2 + ((below - above_2) * t));
+        vec3 between = (above + ((below - above) * t));
         vec3 crossing = (between - (surface.normal * dot(surface.normal, between)));
         vec3 crossing_offset = (above_offset + ((below_offset - above_offset) * t));
-        bool _e158 = outline.crossed;
-        if (_e158) {
+        bool _e161 = outline.crossed;
+        if (_e161) {
             vec3 base = outline.crossing;
             vec3 base_offset = outline.crossing_offset;
             vec3 horizon_start = (a_up ? crossing : base);
             vec3 horizon_end = (a_up ? base : crossing);
             vec3 horizon_start_offset = (a_up ? crossing_offset : base_offset);
             vec3 horizon_end_offset = (a_up ? base_offset : crossing_offset);
-            vec3 _e168 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
-            vec3 normal_13 = (surface.normal * dot(surface.normal, _e168));
+            vec3 _e171 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end_offset - horizon_start_offset));
+            vec3 normal_13 = (surface.normal * dot(surface.normal, _e171));
             outline.closes = true;
             outline.horizon_start = horizon_start;
             outline.horizon_end = horizon_end;
             outline.horizon_start_offset = horizon_start_offset;
             outline.horizon_end_offset = horizon_end_offset;
             outline.horizon_normal = normal_13;
-            float _e181 = outline.diffuse;
-            vec3 _e183 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
-            outline.diffuse = (_e181 - dot(surface.normal, _e183));
+            float _e184 = outline.diffuse;
+            vec3 _e186 = ltc_edge_from(reference_7, horizon_start, horizon_start_offset, horizon_end, horizon_end_offset, normal_13);
+            outline.diffuse = (_e184 - dot(surface.normal, _e186));
         } else {
             outline.crossed = true;
             outline.crossing = crossing;
@@ -2482,27 +2482,27 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
         end_1 = (a_up ? crossing : b);
         end_offset = (a_up ? crossing_offset : b_offset);
     }
-    vec3 _e194 = start_1;
-    vec3 _e195 = end_1;
-    vec3 _e196 = end_offset;
-    vec3 _e197 = start_offset;
-    vec3 _e199 = ltc_edge_normal(_e194, _e195, (_e196 - _e197));
-    vec3 _e201 = start_1;
-    outline.start = _e201;
-    vec3 _e203 = end_1;
-    outline.end = _e203;
-    vec3 _e205 = start_offset;
-    outline.start_offset = _e205;
-    vec3 _e207 = end_offset;
-    outline.end_offset = _e207;
-    outline.normal = _e199;
-    float _e210 = outline.diffuse;
-    vec3 _e212 = start_1;
-    vec3 _e213 = start_offset;
-    vec3 _e214 = end_1;
-    vec3 _e215 = end_offset;
-    vec3 _e216 = ltc_edge_from(reference_7, _e212, _e213, _e214, _e215, _e199);
-    outline.diffuse = (_e210 - dot(surface.normal, _e216));
+    vec3 _e197 = start_1;
+    vec3 _e198 = end_1;
+    vec3 _e199 = end_offset;
+    vec3 _e200 = start_offset;
+    vec3 _e202 = ltc_edge_normal(_e197, _e198, (_e199 - _e200));
+    vec3 _e204 = start_1;
+    outline.start = _e204;
+    vec3 _e206 = end_1;
+    outline.end = _e206;
+    vec3 _e208 = start_offset;
+    outline.start_offset = _e208;
+    vec3 _e210 = end_offset;
+    outline.end_offset = _e210;
+    outline.normal = _e202;
+    float _e213 = outline.diffuse;
+    vec3 _e215 = start_1;
+    vec3 _e216 = start_offset;
+    vec3 _e217 = end_1;
+    vec3 _e218 = end_offset;
+    vec3 _e219 = ltc_edge_from(reference_7, _e215, _e216, _e217, _e218, _e202);
+    outline.diffuse = (_e213 - dot(surface.normal, _e219));
     return;
 }
 #endif
@@ -2510,75 +2510,68 @@ void ltc_outline_add(inout LtcOutline outline, LtcSurface surface, vec3 corner) 
 #if LTC_POLYGON
 // Starts a lobe's part of an outline.
 LtcOutlineLobe ltc_outline_lobe_begin() {
-    LtcOutlineLobe sum_3 = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0);
+    LtcOutlineLobe sum_3 = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0);
     sum_3.crossed = false;
+    sum_3.begun = false;
     sum_3.sum = vec3(0.0);
     sum_3.share = 1.0;
-    LtcOutlineLobe _e8 = sum_3;
-    return _e8;
+    LtcOutlineLobe _e10 = sum_3;
+    return _e10;
 }
 #endif
 
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
-// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space, `exact` as for
-// ltc_crossing.
-void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_4, LtcLobe lobe, vec3 reference, vec3 a, vec3 a_offset, vec3 b, vec3 b_offset, vec3 normal, bool exact) {
+// Adds one edge that lies above the surface or on its horizon, in the lobe's space, and what of it counts as above the lobe's
+// horizon; `exact` as for ltc_crossing.
+void ltc_outline_lobe_edge(inout LtcOutlineLobe sum_4, vec3 reference, vec3 a, vec3 a_offset, bool a_up, vec3 b, vec3 b_offset, bool b_up, vec3 normal, bool exact) {
     vec3 start = vec3(0.0);
     vec3 start_offset = vec3(0.0);
     vec3 end = vec3(0.0);
     vec3 end_offset = vec3(0.0);
-    vec3 _e9 = ltc_transform(lobe, a);
-    vec3 _e10 = ltc_transform(lobe, b);
-    vec3 _e11 = ltc_transform(lobe, a_offset);
-    vec3 _e12 = ltc_transform(lobe, b_offset);
-    vec3 _e13 = ltc_transform_normal(lobe, normal);
-    float _e14 = ltc_above_tolerance(lobe);
-    bool _e15 = ltc_is_above(_e9, _e14);
-    bool _e16 = ltc_is_above(_e10, _e14);
-    if (!((_e15 || _e16))) {
+    if (!((a_up || b_up))) {
         return;
     }
-    start = _e9;
-    start_offset = _e11;
-    end = _e10;
-    end_offset = _e12;
-    if (!((_e15 && _e16))) {
-        vec3 above = (_e15 ? _e9 : _e10);
-        vec3 below = (_e15 ? _e10 : _e9);
-        vec3 above_offset = (_e15 ? _e11 : _e12);
-        vec3 below_offset = (_e15 ? _e12 : _e11);
+    start = a;
+    start_offset = a_offset;
+    end = b;
+    end_offset = b_offset;
+    if (!((a_up && b_up))) {
+        vec3 above = (a_up ? a : b);
+        vec3 below = (a_up ? b : a);
+        vec3 above_offset = (a_up ? a_offset : b_offset);
+        vec3 below_offset = (a_up ? b_offset : a_offset);
         float high = max(above.z, 0.0);
         float t = (high / max((high - min(below.z, 0.0)), LTC_TINY));
-        vec3 _e41 = ltc_crossing(above, below, (_e15 ? _e13 : -(_e13)), exact);
+        vec3 _e34 = ltc_crossing(above, below, (a_up ? normal : -(normal)), exact);
         bool distant = (max(dot(above_offset, above_offset), dot(below_offset, below_offset)) < (0.0625 * dot(reference, reference)));
-        vec3 crossing_offset_1 = (distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e41 - reference));
-        bool _e55 = sum_4.crossed;
-        if (_e55) {
+        vec3 crossing_offset_1 = (distant ? (above_offset + ((below_offset - above_offset) * t)) : (_e34 - reference));
+        bool _e48 = sum_4.crossed;
+        if (_e48) {
             vec3 base = sum_4.crossing;
             vec3 base_offset = sum_4.crossing_offset;
-            vec3 horizon_start = (_e15 ? _e41 : base);
-            vec3 horizon_end = (_e15 ? base : _e41);
-            vec3 _e63 = sum_4.sum;
-            vec3 _e67 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
-            vec3 _e68 = ltc_edge_from(reference, horizon_start, (_e15 ? crossing_offset_1 : base_offset), horizon_end, (_e15 ? base_offset : crossing_offset_1), _e67);
-            sum_4.sum = (_e63 - _e68);
+            vec3 horizon_start = (a_up ? _e34 : base);
+            vec3 horizon_end = (a_up ? base : _e34);
+            vec3 _e56 = sum_4.sum;
+            vec3 _e60 = ltc_edge_normal(horizon_start, horizon_end, (horizon_end - horizon_start));
+            vec3 _e61 = ltc_edge_from(reference, horizon_start, (a_up ? crossing_offset_1 : base_offset), horizon_end, (a_up ? base_offset : crossing_offset_1), _e60);
+            sum_4.sum = (_e56 - _e61);
         } else {
             sum_4.crossed = true;
-            sum_4.crossing = _e41;
+            sum_4.crossing = _e34;
             sum_4.crossing_offset = crossing_offset_1;
         }
-        start = (_e15 ? _e9 : _e41);
-        start_offset = (_e15 ? _e11 : crossing_offset_1);
-        end = (_e15 ? _e41 : _e10);
-        end_offset = (_e15 ? crossing_offset_1 : _e12);
+        start = (a_up ? a : _e34);
+        start_offset = (a_up ? a_offset : crossing_offset_1);
+        end = (a_up ? _e34 : b);
+        end_offset = (a_up ? crossing_offset_1 : b_offset);
     }
-    vec3 _e79 = sum_4.sum;
-    vec3 _e80 = start;
-    vec3 _e81 = start_offset;
-    vec3 _e82 = end;
-    vec3 _e83 = end_offset;
-    vec3 _e84 = ltc_edge_from(reference, _e80, _e81, _e82, _e83, _e13);
-    sum_4.sum = (_e79 - _e84);
+    vec3 _e72 = sum_4.sum;
+    vec3 _e73 = start;
+    vec3 _e74 = start_offset;
+    vec3 _e75 = end;
+    vec3 _e76 = end_offset;
+    vec3 _e77 = ltc_edge_from(reference, _e73, _e74, _e75, _e76, normal);
+    sum_4.sum = (_e72 - _e77);
     return;
 }
 #endif
@@ -2604,28 +2597,58 @@ void ltc_outline_lobe_add(inout LtcOutlineLobe sum_5, LtcOutline outline, LtcLob
     }
 #endif
 #if !LTC_CHEAP_HORIZON
-    if ((!(ltc_use_cheap_horizon) && !(outline.above))) {
+    if ((!(ltc_use_cheap_horizon) && !((outline.starts_up || outline.ends_up)))) {
         return;
     }
 #endif
-    vec3 _e25 = ltc_transform(lobe, outline.reference);
+    vec3 _e27 = ltc_transform(lobe, outline.reference);
 #if LTC_CHEAP_HORIZON
     if (ltc_use_cheap_horizon) {
-        vec3 _e28 = sum_5.sum;
-        vec3 _e30 = ltc_transform(lobe, outline.start);
-        vec3 _e32 = ltc_transform(lobe, outline.start_offset);
-        vec3 _e34 = ltc_transform(lobe, outline.end);
-        vec3 _e36 = ltc_transform(lobe, outline.end_offset);
-        vec3 _e38 = ltc_transform_normal(lobe, outline.normal);
-        vec3 _e39 = ltc_edge_from(_e25, _e30, _e32, _e34, _e36, _e38);
-        sum_5.sum = (_e28 - _e39);
+        vec3 _e30 = sum_5.sum;
+        vec3 _e32 = ltc_transform(lobe, outline.start);
+        vec3 _e34 = ltc_transform(lobe, outline.start_offset);
+        vec3 _e36 = ltc_transform(lobe, outline.end);
+        vec3 _e38 = ltc_transform(lobe, outline.end_offset);
+        vec3 _e40 = ltc_transform_normal(lobe, outline.normal);
+        vec3 _e41 = ltc_edge_from(_e27, _e32, _e34, _e36, _e38, _e40);
+        sum_5.sum = (_e30 - _e41);
         return;
     }
 #endif
-    if (outline.closes) {
-        ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.horizon_start, outline.horizon_start_offset, outline.horizon_end, outline.horizon_end_offset, outline.horizon_normal, true);
+    vec3 _e44 = ltc_transform(lobe, outline.start);
+    vec3 _e46 = ltc_transform(lobe, outline.end);
+    bool _e51 = sum_5.previous_up;
+    bool _e53 = sum_5.begun;
+    bool start_up = ((_e53 && outline.starts_up) ? _e51 : (_e44.z > 0.0));
+    bool _e58 = sum_5.begun;
+    if (!(_e58)) {
+        sum_5.begun = true;
+        sum_5.first_up = start_up;
     }
-    ltc_outline_lobe_edge(sum_5, lobe, _e25, outline.start, outline.start_offset, outline.end, outline.end_offset, outline.normal, false);
+    bool _e67 = sum_5.first_up;
+    bool end_up = ((outline.returns && outline.ends_up) ? _e67 : (_e46.z > 0.0));
+    sum_5.previous_up = end_up;
+    if ((outline.starts_up != outline.ends_up)) {
+        bool crossing_up = (outline.starts_up ? end_up : start_up);
+        if (outline.closes) {
+            bool _e80 = sum_5.crossing_up;
+            bool horizon_start_up = (outline.starts_up ? crossing_up : _e80);
+            bool _e84 = sum_5.crossing_up;
+            bool horizon_end_up = (outline.starts_up ? _e84 : crossing_up);
+            vec3 _e88 = ltc_transform(lobe, outline.horizon_start);
+            vec3 _e90 = ltc_transform(lobe, outline.horizon_start_offset);
+            vec3 _e92 = ltc_transform(lobe, outline.horizon_end);
+            vec3 _e94 = ltc_transform(lobe, outline.horizon_end_offset);
+            vec3 _e96 = ltc_transform_normal(lobe, outline.horizon_normal);
+            ltc_outline_lobe_edge(sum_5, _e27, _e88, _e90, horizon_start_up, _e92, _e94, horizon_end_up, _e96, true);
+        } else {
+            sum_5.crossing_up = crossing_up;
+        }
+    }
+    vec3 _e100 = ltc_transform(lobe, outline.start_offset);
+    vec3 _e102 = ltc_transform(lobe, outline.end_offset);
+    vec3 _e104 = ltc_transform_normal(lobe, outline.normal);
+    ltc_outline_lobe_edge(sum_5, _e27, _e44, _e100, start_up, _e46, _e102, end_up, _e104, false);
     return;
 }
 #endif
@@ -2673,7 +2696,7 @@ vec3 ltc_outline_lobe(LtcOutline outline, LtcOutlineLobe sum_6, bool two_sided) 
 #if LTC_POLYGON
 // Starts what a sum of lobes knows of an outline.
 LtcOutlineLobes ltc_outline_lobes_begin() {
-    LtcOutlineLobes sums = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0));
+    LtcOutlineLobes sums = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0));
     LtcOutlineLobe _e2 = ltc_outline_lobe_begin();
     sums.first = _e2;
     LtcOutlineLobe _e4 = ltc_outline_lobe_begin();
@@ -2688,7 +2711,7 @@ LtcOutlineLobes ltc_outline_lobes_begin() {
 #if (LTC_ANISOTROPIC && LTC_POLYGON) || (LTC_CLEARCOAT && LTC_POLYGON) || (LTC_GGX && LTC_POLYGON) || (LTC_POLYGON && LTC_ROUGH_DIFFUSE) || (LTC_POLYGON && LTC_SHEEN)
 // Adds the outline's last edge to the lobes of a sum.
 void ltc_outline_lobes_add(inout LtcOutlineLobes sums, LtcSurface surface, LtcOutline outline, LtcLobes lobes) {
-    LtcOutlineLobe sum = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0);
+    LtcOutlineLobe sum = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0);
     LtcLobe lobe = LtcLobe(vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), 0.0, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     LtcShape shape = LtcShape(vec4(0.0), 0.0, 0.0);
     int index = 1;
@@ -2790,7 +2813,7 @@ vec2 ltc_outline_specular(LtcSurface surface, LtcOutline outline, LtcOutlineLobe
 #if LTC_POLYGON
 // Starts a polygon at its first vertex.
 LtcPolygon ltc_polygon_begin(LtcSurface surface, vec3 corner) {
-    LtcPolygon polygon = LtcPolygon(LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)), LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0)));
+    LtcPolygon polygon = LtcPolygon(LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, false, false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)), LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0)));
     LtcOutline _e4 = ltc_outline_begin(surface, corner);
     polygon.outline = _e4;
     LtcOutlineLobes _e6 = ltc_outline_lobes_begin();
@@ -2803,8 +2826,8 @@ LtcPolygon ltc_polygon_begin(LtcSurface surface, vec3 corner) {
 #if LTC_POLYGON
 // Adds the next vertex.
 void ltc_polygon_add(inout LtcPolygon polygon, LtcSurface surface, LtcLobes lobes, vec3 corner) {
-    LtcOutline outline_8 = LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    LtcOutlineLobes sums_3 = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0));
+    LtcOutline outline_8 = LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, false, false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    LtcOutlineLobes sums_3 = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0));
     LtcOutline _e5 = polygon.outline;
     outline_8 = _e5;
     LtcOutlineLobes _e8 = polygon.sums;
@@ -4733,7 +4756,7 @@ LtcReceived ltc_shading_tube(LtcShading shading, vec3 start, vec3 end, float rad
 #if LTC_POLYGON
 // Starts a polygon of any number of vertices at its first one.
 LtcShadingPolygon ltc_shading_polygon_begin(LtcShading shading, vec3 corner) {
-    LtcShadingPolygon polygon = LtcShadingPolygon(LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)), LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0)), LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0)), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0));
+    LtcShadingPolygon polygon = LtcShadingPolygon(LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, false, false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)), LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0)), LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0)), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0));
     LtcOutline _e5 = ltc_outline_begin(shading.surface, corner);
     polygon.outline = _e5;
     LtcOutlineLobes _e7 = ltc_outline_lobes_begin();
@@ -4752,11 +4775,11 @@ LtcShadingPolygon ltc_shading_polygon_begin(LtcShading shading, vec3 corner) {
 #if LTC_POLYGON
 // Adds the next vertex.
 void ltc_shading_polygon_add(inout LtcShadingPolygon polygon, LtcShading shading, vec3 corner) {
-    LtcOutline outline_9 = LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    LtcOutlineLobes specular_5 = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0));
-    LtcOutlineLobes coat_2 = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0));
-    LtcOutlineLobe sheen_1 = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0);
-    LtcOutlineLobe rough = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), vec3(0.0), 0.0);
+    LtcOutline outline_9 = LtcOutline(vec3(0.0), 0.0, vec3(0.0), 0.0, false, false, vec3(0.0), 0.0, vec3(0.0), false, vec3(0.0), false, false, false, vec3(0.0), false, vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    LtcOutlineLobes specular_5 = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0));
+    LtcOutlineLobes coat_2 = LtcOutlineLobes(LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0), LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0));
+    LtcOutlineLobe sheen_1 = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0);
+    LtcOutlineLobe rough = LtcOutlineLobe(vec3(0.0), false, vec3(0.0), false, false, false, false, vec3(0.0), 0.0);
     LtcOutline _e4 = polygon.outline;
     outline_9 = _e4;
     ltc_outline_add(outline_9, shading.surface, corner);

@@ -64,11 +64,10 @@ pub use polygon::{
     ltc_polygon_end,
 };
 pub use quad::{
-    LtcQuad, ltc_above_tolerance, ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge_about, ltc_edge_excess,
-    ltc_edge_near, ltc_edge_normal, ltc_edge_part, ltc_edge_turn, ltc_edge_weight, ltc_edges, ltc_far_offset,
-    ltc_far_pentagon, ltc_flat_crossing, ltc_horizon, ltc_inverse_length, ltc_is_above, ltc_offset,
-    ltc_pentagon, ltc_quad, ltc_quad_begin, ltc_quad_diffuse, ltc_quad_form_factor, ltc_quad_lobe,
-    ltc_quad_toward, ltc_shorter,
+    LtcQuad, ltc_angle, ltc_angle_excess, ltc_crossing, ltc_edge_about, ltc_edge_excess, ltc_edge_near,
+    ltc_edge_normal, ltc_edge_part, ltc_edge_turn, ltc_edge_weight, ltc_edges, ltc_far_offset,
+    ltc_far_pentagon, ltc_flat_crossing, ltc_horizon, ltc_inverse_length, ltc_offset, ltc_pentagon, ltc_quad,
+    ltc_quad_begin, ltc_quad_diffuse, ltc_quad_form_factor, ltc_quad_lobe, ltc_quad_toward, ltc_shorter,
 };
 pub use real::{Real, Vector, angle_excess, hyperbolic_excess};
 pub use several::{

@@ -1,9 +1,6 @@
 //! Polygons of any number of vertices, convex or not, vertex by vertex.
 
-use super::quad::{
-    OVER_TWO_PI, ltc_above_tolerance, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_is_above,
-    ltc_offset, ltc_shorter,
-};
+use super::quad::{OVER_TWO_PI, ltc_crossing, ltc_edge_about, ltc_edge_normal, ltc_offset, ltc_shorter};
 use super::real::{Real, Vector};
 use super::several::{LobeSum, ltc_lobes_value, with_form_factor};
 use super::surface::{
@@ -27,14 +24,25 @@ pub struct LtcOutline<R: Real> {
     crossing: Option<Point<R>>,
     /// The first vertex, scaled as the points of the last edges.
     reference: R::Vec3,
-    /// What the last edge left above the surface.
-    edges: [Option<Part<R>>; 2],
+    /// Whether the last edge starts and ends above the horizon.
+    up: [bool; 2],
+    /// Whether it ends at the first vertex.
+    returns: bool,
+    /// What it left above the surface: a piece of the horizon that closes it, and the edge itself.
+    closing: Option<Part<R>>,
+    edge: Option<Part<R>>,
 }
 
 /// What one lobe knows of an outline.
 #[derive(Clone, Copy, Debug)]
 pub struct LtcOutlineLobe<R: Real> {
     crossing: Option<Point<R>>,
+    /// Whether the first vertex counts as above the lobe's horizon; none before the first edge.
+    first_up: Option<bool>,
+    /// Whether the last vertex so far does.
+    previous_up: bool,
+    /// Whether the outline's first point on the surface's horizon does.
+    crossing_up: bool,
     sum: R::Vec3,
 }
 
@@ -75,7 +83,10 @@ pub fn ltc_outline_begin<R: Real>(surface: &LtcSurface<R>, corner: R::Vec3) -> L
         diffuse: zero,
         crossing: None,
         reference: R::Vec3::new(zero, zero, zero),
-        edges: [None, None],
+        up: [first_up; 2],
+        returns: false,
+        closing: None,
+        edge: None,
     }
 }
 
@@ -93,7 +104,7 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
     let (a, b) = (place(a), place(b));
     let lever = ltc_shorter::<R>(ltc_shorter::<R>(a.offset, b.offset), ltc_shorter::<R>(a.at, b.at));
     outline.facing += lever.cross(side).dot(reference);
-    let closes = corner == outline.first;
+    outline.returns = corner == outline.first;
     outline.previous = corner;
     outline.reference = reference;
 
@@ -105,18 +116,19 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
         [a, b].map(|p| if near { height + normal.dot(p.offset) } else { normal.dot(p.at) });
     let zero: R = R::new(0.0);
     // As in the include: a vertex counts the same for both of its edges.
-    let b_up = if closes { outline.first_up } else { b_height > zero };
+    let b_up = if outline.returns { outline.first_up } else { b_height > zero };
     let a_up = core::mem::replace(&mut outline.previous_up, b_up);
+    outline.up = [a_up, b_up];
     let ends = [(a, a_height, a_up), (b, b_height, b_up)];
-    let edges = cut(ends[0], ends[1], &mut outline.crossing, |above, below, t| {
+    let parts = cut(ends[0], ends[1], &mut outline.crossing, |above, below, t| {
         let between = above.at + (below.at - above.at) * t;
         Point {
             at: between - normal * normal.dot(between),
             offset: above.offset + (below.offset - above.offset) * t,
         }
     });
-    outline.edges = edges.map(|edge| {
-        edge.map(|((start, end), closing)| {
+    [outline.closing, outline.edge] = parts.map(|part| {
+        part.map(|((start, end), closing)| {
             let product = ltc_edge_normal::<R>(start.at, end.at, end.offset - start.offset);
             Part {
                 edge: (start, end),
@@ -125,7 +137,7 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
             }
         })
     });
-    for part in outline.edges.into_iter().flatten() {
+    for part in [outline.closing, outline.edge].into_iter().flatten() {
         outline.diffuse += -normal.dot(ltc_edge_from(reference, part.edge, part.normal));
     }
 }
@@ -133,7 +145,13 @@ pub fn ltc_outline_add<R: Real>(outline: &mut LtcOutline<R>, surface: &LtcSurfac
 /// Starts a lobe's part of an outline.
 pub fn ltc_outline_lobe_begin<R: Real>() -> LtcOutlineLobe<R> {
     let zero: R = R::new(0.0);
-    LtcOutlineLobe { crossing: None, sum: R::Vec3::new(zero, zero, zero) }
+    LtcOutlineLobe {
+        crossing: None,
+        first_up: None,
+        previous_up: false,
+        crossing_up: false,
+        sum: R::Vec3::new(zero, zero, zero),
+    }
 }
 
 /// Adds what [`ltc_outline_add`] has last added to `outline` to a lobe.
@@ -142,10 +160,29 @@ pub fn ltc_outline_lobe_add<R: Real>(
     outline: &LtcOutline<R>,
     lobe: &LtcLobe<R>,
 ) {
+    let Some(edge) = outline.edge.map(|part| part.transform(lobe)) else { return };
     let reference = ltc_transform(lobe, outline.reference);
-    for part in outline.edges.into_iter().flatten() {
-        ltc_outline_lobe_edge(sum, lobe, reference, part);
+    let is_above = |point: Point<R>| point.at.z() > R::new(0.0);
+    let [starts_up, ends_up] = outline.up;
+    // As in the include: a point counts the same for all edges that share it.
+    let start_up = match sum.first_up {
+        Some(_) if starts_up => sum.previous_up,
+        _ => is_above(edge.edge.0),
+    };
+    let first_up = *sum.first_up.get_or_insert(start_up);
+    let end_up = if outline.returns & ends_up { first_up } else { is_above(edge.edge.1) };
+    sum.previous_up = end_up;
+    if starts_up != ends_up {
+        let crossing_up = if starts_up { end_up } else { start_up };
+        match outline.closing.map(|part| part.transform(lobe)) {
+            Some(closing) if starts_up => {
+                ltc_outline_lobe_edge(sum, reference, closing, [crossing_up, sum.crossing_up]);
+            }
+            Some(closing) => ltc_outline_lobe_edge(sum, reference, closing, [sum.crossing_up, crossing_up]),
+            None => sum.crossing_up = crossing_up,
+        }
     }
+    ltc_outline_lobe_edge(sum, reference, edge, [start_up, end_up]);
 }
 
 /// The form factor of a closed outline, 0…1.
@@ -211,6 +248,16 @@ struct Part<R: Real> {
     is_horizon: bool,
 }
 
+impl<R: Real> Part<R> {
+    fn transform(self, lobe: &LtcLobe<R>) -> Self {
+        Self {
+            edge: (self.edge.0.transform(lobe), self.edge.1.transform(lobe)),
+            normal: ltc_transform_normal(lobe, self.normal),
+            is_horizon: self.is_horizon,
+        }
+    }
+}
+
 /// An end of an edge with its height over a plane, and whether it counts as above.
 type End<R> = (Point<R>, R, bool);
 
@@ -223,7 +270,7 @@ fn cut<R: Real>(
     cross: impl Fn(Point<R>, Point<R>, R) -> Point<R>,
 ) -> [Option<(Edge<R>, bool)>; 2] {
     if a_up & b_up {
-        return [Some(((a, b), false)), None];
+        return [None, Some(((a, b), false))];
     }
     if !(a_up | b_up) {
         return [None, None];
@@ -243,18 +290,15 @@ fn cut<R: Real>(
     [closing, Some((if a_up { (a, crossing) } else { (crossing, b) }, false))]
 }
 
-/// Adds one edge that lies above the surface or on its horizon; `reference` is in the lobe's space.
+/// Adds one edge that lies above the surface or on its horizon, in the lobe's space, whose ends count as above the lobe's
+/// horizon or not.
 fn ltc_outline_lobe_edge<R: Real>(
     sum: &mut LtcOutlineLobe<R>,
-    lobe: &LtcLobe<R>,
     reference: R::Vec3,
     part: Part<R>,
+    [a_up, b_up]: [bool; 2],
 ) {
-    let (a, b) = part.edge;
-    let normal = ltc_transform_normal(lobe, part.normal);
-    let (a, b) = (a.transform(lobe), b.transform(lobe));
-    let tolerance = ltc_above_tolerance(lobe);
-    let (a_up, b_up) = (ltc_is_above::<R>(a.at, tolerance), ltc_is_above::<R>(b.at, tolerance));
+    let ((a, b), normal) = (part.edge, part.normal);
     let turned = if a_up { normal } else { -normal };
     let ends = [(a, a.at.z(), a_up), (b, b.at.z(), b_up)];
     let edges = cut(ends[0], ends[1], &mut sum.crossing, |above, below, t| {

@@ -99,16 +99,6 @@ pub fn ltc_offset<R: Real>(
     }
 }
 
-/// Whether `v` lies above the lobe's horizon, or on it but for rounding.
-pub fn ltc_is_above<R: Real>(v: R::Vec3, tolerance: R) -> bool {
-    (v.z() > R::new(0.0)) | (v.z() * v.z() < tolerance * v.dot(v))
-}
-
-/// That rounding, squared, in the space of a lobe, which squeezes heights by the length of its third axis.
-pub fn ltc_above_tolerance<R: Real>(lobe: &LtcLobe<R>) -> R {
-    R::new(4e-12) * lobe.frame_z.dot(lobe.frame_z).min(R::new(1.0))
-}
-
 /// Where the segment from `above` the plane z = 0 to `below` it meets that plane; only the direction of that where
 /// it passes the surface point closely. `normal` has the direction of above × below; `exact` tells that it does not come
 /// from these points and their rounding.
