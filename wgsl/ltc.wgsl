@@ -2817,7 +2817,8 @@ fn ltc_disk_begin(surface: LtcSurface, centre: vec3<f32>, half_x: vec3<f32>, hal
     let normal = cross(x, y);
     var disk: LtcDisk;
     disk.centre = away * scale;
-    disk.size = width * scale;
+    // Of a disk that is nothing at the surface point `scale` is large, and must not meet other reciprocals in one product.
+    disk.size = min(width * scale, 1.0);
     let volume = dot(normal, disk.centre);
     let front = volume < 0.0;
     disk.half_x = select(x, y, front);

@@ -3923,27 +3923,27 @@ LtcDisk ltc_disk_begin(LtcSurface surface, vec3 centre_2, vec3 half_x_2, vec3 ha
     vec3 y = (y_far * shrink);
     vec3 normal_18 = cross(x, y);
     disk.centre = (away * scale);
-    disk.size = (width * scale);
-    vec3 _e37 = disk.centre;
-    float volume_2 = dot(normal_18, _e37);
+    disk.size = min((width * scale), 1.0);
+    vec3 _e39 = disk.centre;
+    float volume_2 = dot(normal_18, _e39);
     bool front = (volume_2 < 0.0);
     disk.half_x = (front ? y : x);
     disk.half_y = (front ? x : y);
     disk.normal = (front ? -(normal_18) : normal_18);
     disk.volume = abs(volume_2);
-    vec3 _e53 = disk.half_x;
-    vec3 _e55 = disk.half_y;
-    float _e57 = disk.size;
-    vec3 _e59 = disk.centre;
-    LtcCut _e60 = ltc_cut(surface.normal, _e53, _e55, _e57, _e59);
-    disk.cut = _e60;
-    float _e64 = disk.cut.offset;
-    disk.clipped = (_e64 > -1.0);
+    vec3 _e55 = disk.half_x;
+    vec3 _e57 = disk.half_y;
+    float _e59 = disk.size;
+    vec3 _e61 = disk.centre;
+    LtcCut _e62 = ltc_cut(surface.normal, _e55, _e57, _e59, _e61);
+    disk.cut = _e62;
+    float _e66 = disk.cut.offset;
+    disk.clipped = (_e66 > -1.0);
     bool is_line = (dot(normal_18, normal_18) <= LTC_TINY);
-    float _e79 = disk.cut.offset;
-    disk.reaches = (((front || ((two_sided && ltc_use_two_sided) && (volume_2 > 0.0))) && (_e79 < 1.0)) && !(is_line));
-    LtcDisk _e85 = disk;
-    return _e85;
+    float _e81 = disk.cut.offset;
+    disk.reaches = (((front || ((two_sided && ltc_use_two_sided) && (volume_2 > 0.0))) && (_e81 < 1.0)) && !(is_line));
+    LtcDisk _e87 = disk;
+    return _e87;
 }
 #endif
 

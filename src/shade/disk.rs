@@ -60,7 +60,7 @@ pub fn ltc_disk_begin<R: Real>(
     let volume = normal.dot(centre);
     let front = volume < zero;
     let (half_x, half_y) = if front { (y, x) } else { (x, y) };
-    let size = width * scale;
+    let size = (width * scale).min(R::new(1.0));
     let cut = ltc_cut::<R>(surface.normal, half_x, half_y, size, centre);
     // As in the include: in single precision an ellipse more slender than 1e18 has no plane.
     let is_line = normal.dot(normal) <= tiny;

@@ -233,7 +233,7 @@ fn family(name: &str, scale: usize) -> Vec<Case> {
     cases
 }
 
-fn replaced(include: &str, from: &str, to: &str) -> String {
+pub fn replaced(include: &str, from: &str, to: &str) -> String {
     assert!(include.contains(from), "the include has no {from}");
     include.replace(from, to)
 }

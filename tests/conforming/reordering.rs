@@ -1,11 +1,13 @@
 //! Devices that put sums and products in another order than the text.
 
+use glam::Vec3;
 use rayon::prelude::*;
 use softbox::WGSL_INCLUDE;
 use softbox::effects::Quality;
 use softbox::interpret::{Freedom, Policy};
-use softbox::stability::{Case, REORDERED};
+use softbox::stability::{Bound, Case, REORDERED, Shape};
 
+use super::controls::replaced;
 use super::{assert_none, most, summarised, thinned};
 
 fn devices() -> Vec<(String, Policy)> {
@@ -76,6 +78,29 @@ fn any_numbers_in_range_stay_physical_on_any_device_that_does_not() {
         offences.extend(summary.offences(&format!("{quality}, any numbers in another order")));
     }
     assert_none(&offences);
+}
+
+/// A disk without area at the surface point has the reciprocal of nothing as its unit.
+#[test]
+fn a_disk_that_is_nothing_at_the_surface_point_stays_finite_in_any_order() {
+    let mut cases = thinned(1, 40);
+    cases.retain(|case| matches!(case.shape, Shape::Disk { .. }));
+    cases.truncate(1);
+    let nothing = Vec3::ZERO;
+    cases[0].shape =
+        Shape::Disk { center: cases[0].position, half_x: nothing, half_y: nothing, two_sided: true };
+    cases[0].bound = Bound::Physical;
+    cases[0].specular_bound = f64::INFINITY;
+    let devices: Vec<_> =
+        (0..100).map(|seed| (format!("another order {seed}"), Policy::random(seed))).collect();
+    let unbounded =
+        replaced(WGSL_INCLUDE, "disk.size = min(width * scale, 1.0);", "disk.size = width * scale;");
+    for quality in Quality::ALL {
+        let summary = summarised(WGSL_INCLUDE, quality, &cases, &devices);
+        assert_eq!(summary.offences(&format!("{quality}, in another order")), [""; 0]);
+    }
+    let summary = summarised(&unbounded, Quality::Standard, &cases, &devices);
+    assert!(!summary.is_clean(), "the size needs no bound: {summary}");
 }
 
 /// The range means something: beyond it such devices give what is no number.
