@@ -7,8 +7,15 @@ use super::sight::rounding;
 use super::{Claim, Posed, slack};
 use crate::stability::{Case, Random, Shape};
 
-/// Numbers that may be scaled by 2^±20 without becoming subnormal or infinite, by a margin for products of two of them.
+/// Numbers that may be scaled by 2^±20 without becoming subnormal or infinite, by a margin for products of two of them and with
+/// the components of directions.
 fn has_room(case: &Case) -> bool {
+    for direction in [case.normal, case.view] {
+        let least = 1e-20 * direction.abs().max_element();
+        if direction.to_array().iter().any(|number| *number != 0.0 && number.abs() < least) {
+            return false;
+        }
+    }
     let mut numbers = case.position.to_array().to_vec();
     let mut shape = case.shape.clone();
     each_point(&mut shape, &mut |v| numbers.extend(v.to_array()));
