@@ -79,9 +79,22 @@ pub fn write(files: &[(String, Vec<u8>)], folder: &Path, kind: Kind) -> Result<(
     // Left by another process of that number.
     let _ = fs::remove_dir_all(&fresh);
     let written = write_files(files, &fresh).and_then(|()| replace(&fresh, folder).map_err(refused(folder)));
+    let written = written.map_err(|error| named(error, &fresh, folder));
     // The new folder that was not to be, or the old one that no longer is; what is left of it does no harm.
     let _ = fs::remove_dir_all(&fresh);
     written
+}
+
+/// The error with the names that files were to have, not those that they had for the time being.
+fn named(error: WriteError, fresh: &Path, folder: &Path) -> WriteError {
+    match error {
+        WriteError::Refused { path, reason } => match path.strip_prefix(fresh) {
+            Ok(rest) if rest == Path::new("") => WriteError::Refused { path: folder.to_owned(), reason },
+            Ok(rest) => WriteError::Refused { path: folder.join(rest), reason },
+            Err(_) => WriteError::Refused { path, reason },
+        },
+        WriteError::Occupied { .. } => error,
+    }
 }
 
 /// Gives `folder` what is in `fresh`, which gets what was in `folder`: at every moment there is one of the two.

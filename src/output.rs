@@ -9,6 +9,23 @@ use std::time::{Duration, SystemTime};
 /// After this long nobody is still writing: what lies beside under a temporary name is left over from a run that was killed.
 const STALE: Duration = Duration::from_secs(600);
 
+/// Tells before any work is done why a file of that name cannot be written, as far as that can be seen.
+///
+/// # Errors
+///
+/// If the name is that of a folder, or of nothing, or there is no folder for it.
+pub fn check_file(path: &Path) -> io::Result<()> {
+    if path.is_dir() || path.file_name().is_none() {
+        return Err(io::Error::other("it is a folder; name a file in it"));
+    }
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
+            Err(io::Error::other(format!("there is no folder {}; make it first", folder.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
 /// Writes a file whole or not at all: under a temporary name in the same folder, which then becomes its own. What a link leads
 /// to is written, and a device or a pipe, which cannot be replaced, as it is.
 ///
@@ -16,9 +33,9 @@ const STALE: Duration = Duration::from_secs(600);
 ///
 /// If the operating system refuses; what was there before then still is.
 pub fn write_file(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    check_file(path)?;
     let path = &match fs::metadata(path) {
         Ok(there) if there.is_file() => fs::canonicalize(path)?,
-        Ok(there) if there.is_dir() => return Err(io::ErrorKind::IsADirectory.into()),
         Ok(_) => return fs::OpenOptions::new().write(true).open(path)?.write_all(bytes),
         // That there is none is no reason, and any other will show again.
         Err(_) => path.to_owned(),

@@ -12,6 +12,7 @@ use softbox::report::{Accuracy, REGIONS, Technique};
 use softbox::table::{Container, Table};
 
 use crate::model::ModelArguments;
+use crate::number::Whole;
 use crate::progress;
 use crate::say::say;
 
@@ -21,8 +22,8 @@ pub struct BakeArguments {
     #[arg(long, value_name = "FILE")]
     out: PathBuf,
     /// Texels along each axis, 2 to 1024.
-    #[arg(long, default_value_t = 64, value_name = "N")]
-    size: usize,
+    #[arg(long, default_value = "64", value_name = "N", value_parser = TABLE_SIZES, allow_negative_numbers = true)]
+    size: u32,
     /// Meaning of the texels.
     #[arg(long, value_enum, default_value = "native")]
     layout: LayoutName,
@@ -45,17 +46,12 @@ enum LayoutName {
     Diffuse,
 }
 
-pub fn check_size(size: usize) -> anyhow::Result<()> {
-    anyhow::ensure!(
-        (2..=1024).contains(&size),
-        "the table size is {size}, but must be from 2 to 1024 texels along each axis"
-    );
-    Ok(())
-}
+/// Texels along each axis of a table.
+pub const TABLE_SIZES: Whole = Whole { least: 2, most: 1024 };
 
 pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
     let started = Instant::now();
-    check_size(arguments.size)?;
+    let size = arguments.size as usize;
     let extension = arguments.out.extension().unwrap_or_default().to_string_lossy();
     let container = Container::ALL
         .into_iter()
@@ -66,11 +62,12 @@ pub fn bake(arguments: &BakeArguments) -> anyhow::Result<()> {
                 arguments.out.display()
             )
         })?;
+    check_file(&arguments.out)?;
     let (settings, technique) = match arguments.layout {
-        LayoutName::Native => (Settings::native(arguments.size), Some(Technique::Include)),
-        LayoutName::Compatible => (Settings::compatible(arguments.size), Some(Technique::Published)),
-        LayoutName::Sheen => (Settings::sheen(arguments.size), None),
-        LayoutName::Diffuse => (Settings::diffuse(arguments.size), None),
+        LayoutName::Native => (Settings::native(size), Some(Technique::Include)),
+        LayoutName::Compatible => (Settings::compatible(size), Some(Technique::Published)),
+        LayoutName::Sheen => (Settings::sheen(size), None),
+        LayoutName::Diffuse => (Settings::diffuse(size), None),
     };
     let family = arguments.model.family_for(settings.layout)?;
     anyhow::ensure!(
@@ -112,6 +109,11 @@ pub fn print_row(name: &str, accuracy: &Accuracy) -> anyhow::Result<()> {
         100.0 * accuracy.dielectric
     );
     Ok(())
+}
+
+/// Tells before any work is done why a file cannot be written.
+pub fn check_file(path: &Path) -> anyhow::Result<()> {
+    output::check_file(path).with_context(|| format!("cannot write {}", path.display()))
 }
 
 /// Writes a file whole or not at all.

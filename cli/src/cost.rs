@@ -97,7 +97,10 @@ fn child(family: &str, sets: &[Effects]) -> anyhow::Result<Report> {
         match output.status.code() {
             Some(_) => bail!("{said}"),
             None => {
-                bail!("the driver gave up on the family {family:?}: {said}; {:?} are common", cost::FAMILIES)
+                bail!(
+                    "the driver gave up on the family {family:?}: {said}; {} are common",
+                    cost::FAMILIES.join(", ")
+                )
             }
         }
     }

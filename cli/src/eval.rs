@@ -52,9 +52,9 @@ pub struct EvalArguments {
     /// What evaluates.
     #[arg(long, value_enum, default_value = "cpu")]
     on: On,
-    /// Quality level: fast, standard, fine or finest.
-    #[arg(long, value_name = "LEVEL", default_value = "standard")]
-    quality: Quality,
+    /// Quality level: fast, standard, fine or finest; standard by default. Truth has none.
+    #[arg(long, value_name = "LEVEL")]
+    quality: Option<Quality>,
     /// File of cases; standard input without it.
     file: Option<PathBuf>,
 }
@@ -96,7 +96,11 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
     };
     let mut input = BufReader::with_capacity(1 << 16, input);
     let effects = "quad,polygon,disk,sphere,tube,textured+ggx+two-sided,caps".parse::<Effects>()?;
-    let effects = arguments.quality.of(effects);
+    anyhow::ensure!(
+        arguments.on != On::Truth || arguments.quality.is_none(),
+        "--quality says nothing to --on truth, which has no levels; leave one of them out"
+    );
+    let effects = arguments.quality.unwrap_or(Quality::Standard).of(effects);
     let layers = effects.layers();
     let table = Table::default().completed(&layers);
     let table = if layers.is_empty() { table } else { table.only(&layers) };
@@ -147,11 +151,13 @@ pub fn eval(arguments: &EvalArguments) -> anyhow::Result<()> {
         let parsed = match input.by_ref().take(LONGEST_LINE as u64 + 1).read_until(b'\n', &mut line) {
             Ok(0) => break,
             Ok(_) if line.len() > LONGEST_LINE => Err(anyhow::anyhow!(
-                "line {number} is longer than {} MiB; put each case on a line of its own",
+                "{name}, line {number} is longer than {} MiB; put each case on a line of its own",
                 LONGEST_LINE >> 20
             )),
             Ok(_) if line.iter().all(u8::is_ascii_whitespace) => continue,
-            Ok(_) => parse(&line, arguments.on, &mut pictures).with_context(|| format!("line {number}")),
+            Ok(_) => {
+                parse(&line, arguments.on, &mut pictures).with_context(|| format!("{name}, line {number}"))
+            }
             Err(error) => Err(error).with_context(|| format!("cannot read {name} at line {number}")),
         };
         match parsed {

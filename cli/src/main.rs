@@ -5,6 +5,7 @@ mod cost;
 mod effects;
 mod eval;
 mod model;
+mod number;
 mod package;
 mod prefilter;
 mod progress;
@@ -15,6 +16,7 @@ mod say;
 mod select;
 mod stability;
 
+use clap::error::ErrorKind;
 use clap::{Parser, Subcommand};
 
 /// Area lights by linearly transformed cosines: bake the table, translate the include, evaluate lights.
@@ -52,13 +54,31 @@ enum Command {
     Eval(eval::EvalArguments),
 }
 
+/// Says what is wrong with the arguments in one line; help and version are no errors.
+fn refuse(error: &clap::Error) -> ! {
+    if !error.use_stderr() || error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        error.exit();
+    }
+    let text = error.render().to_string();
+    let paragraphs =
+        text.split("\n\n").map(|paragraph| paragraph.split_whitespace().collect::<Vec<_>>().join(" "));
+    let said = paragraphs.filter(|paragraph| {
+        !paragraph.is_empty()
+            && !paragraph.starts_with("Usage:")
+            && !paragraph.starts_with("For more information")
+    });
+    eprintln!("{}; softbox --help tells more", said.collect::<Vec<_>>().join("; "));
+    std::process::exit(2);
+}
+
 fn main() {
     if std::env::var_os("XDG_RUNTIME_DIR").is_none() {
         // Some drivers complain on standard error when there is no such folder, though nothing is put there.
         // SAFETY: no other thread runs yet.
         unsafe { std::env::set_var("XDG_RUNTIME_DIR", std::env::temp_dir()) };
     }
-    let result = match Arguments::parse().command {
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| refuse(&error));
+    let result = match arguments.command {
         Command::Build(arguments) => package::build(&arguments),
         Command::Bake(arguments) => bake::bake(&arguments),
         Command::Prefilter(arguments) => prefilter::prefilter(&arguments),

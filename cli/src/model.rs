@@ -13,7 +13,7 @@ pub struct ModelArguments {
     /// For ggx-schlick: the constant k of G1 = (n.w) / ((n.w)(1 - k) + k), as a multiple of alpha, or of
     /// (roughness + 1)^2 with --k-of-roughness.
     /// [default: 0.5, or 0.125 with --k-of-roughness]
-    #[arg(long, value_name = "FACTOR")]
+    #[arg(long, value_name = "FACTOR", allow_negative_numbers = true)]
     k: Option<f64>,
     /// For ggx-schlick: take k as a multiple of (roughness + 1)^2 instead of alpha.
     #[arg(long)]

@@ -4,13 +4,14 @@ use std::path::PathBuf;
 use std::sync::Mutex;
 use std::time::Instant;
 
+use anyhow::Context;
 use clap::Args;
 use softbox::effects::{Effects, Quality};
 use softbox::fit::Layout;
 use softbox::package::{self, Contents, Step};
 use softbox::scene::Scene;
 
-use crate::bake::{check_size, print_row, write_file};
+use crate::bake::{TABLE_SIZES, print_row, write_file};
 use crate::model::ModelArguments;
 use crate::progress;
 use crate::say::say;
@@ -21,8 +22,8 @@ pub struct BuildArguments {
     #[arg(long, default_value = "softbox-package", value_name = "DIR")]
     out: PathBuf,
     /// Texels along each axis of the tables, 2 to 1024.
-    #[arg(long, default_value_t = 64, value_name = "N")]
-    table_size: usize,
+    #[arg(long, default_value = "64", value_name = "N", value_parser = TABLE_SIZES, allow_negative_numbers = true)]
+    table_size: u32,
     #[command(flatten)]
     model: ModelArguments,
     /// What the shaders can do, such as quad,disk+ggx,clearcoat+two-sided: the package then holds that part of the
@@ -42,7 +43,13 @@ pub struct BuildArguments {
 
 pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
     let started = Instant::now();
-    check_size(arguments.table_size)?;
+    if let Some(repository) = &arguments.update {
+        anyhow::ensure!(
+            repository.join("wgsl/ltc.wgsl").is_file(),
+            "{} is no repository of this library, as it has no wgsl/ltc.wgsl; name its root",
+            repository.display()
+        );
+    }
     let family = arguments.model.family()?;
     let effects = match &arguments.scene {
         Some(scene) => {
@@ -55,7 +62,7 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
         Some(level) if arguments.scene.is_none() => Some(level.of(effects.unwrap_or_else(Effects::standing))),
         _ => effects,
     };
-    let contents = Contents { table_size: arguments.table_size, effects, ..Contents::default() };
+    let contents = Contents { table_size: arguments.table_size as usize, effects, ..Contents::default() };
     let bar = progress::bar("Building");
     let shown = Mutex::new(None);
     let package = package::build(&family, &contents, &|step, share| {
@@ -83,7 +90,8 @@ pub fn build(arguments: &BuildArguments) -> anyhow::Result<()> {
             {
                 let path = repository.join(path);
                 if let Some(folder) = path.parent() {
-                    std::fs::create_dir_all(folder)?;
+                    std::fs::create_dir_all(folder)
+                        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
                 }
                 write_file(&path, bytes)?;
                 say!("{}", path.display());

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use softbox::scene::load_picture;
 
-use crate::bake::write_file;
+use crate::bake::{check_file, write_file};
 use crate::say::say;
 
 #[derive(Args)]
@@ -23,6 +23,7 @@ pub fn prefilter(arguments: &PrefilterArguments) -> anyhow::Result<()> {
         Some("bin") => true,
         _ => anyhow::bail!("{} names no format; the name must end in .ktx2 or .bin", arguments.out.display()),
     };
+    check_file(&arguments.out)?;
     let pyramid = load_picture(&arguments.picture)?;
     let bytes = if is_raw { pyramid.bytes() } else { pyramid.ktx2() };
     write_file(&arguments.out, &bytes)?;

@@ -9,6 +9,7 @@ use softbox::device::Device;
 use softbox::scene::{Comparison, Panel, Scene, check_png_path, render_truth, write_png};
 use softbox::table::Table;
 
+use crate::number::Whole;
 use crate::progress;
 use crate::quality::QualityArguments;
 use crate::say::say;
@@ -36,13 +37,13 @@ pub struct RenderArguments {
     #[command(flatten)]
     pub quality: QualityArguments,
     /// Pixels in a row; 960, or 480 with ground truth.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_name = "PIXELS", value_parser = Whole { least: 1, most: 16384 }, allow_negative_numbers = true)]
     pub width: Option<u32>,
     /// Rows; 9/16 of the width.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=16384))]
+    #[arg(long, value_name = "PIXELS", value_parser = Whole { least: 1, most: 16384 }, allow_negative_numbers = true)]
     pub height: Option<u32>,
     /// Samples of each pixel; 16, or 1 with ground truth, whose time grows with them.
-    #[arg(long, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    #[arg(long, value_name = "N", value_parser = Whole { least: 1, most: 4096 }, allow_negative_numbers = true)]
     pub samples: Option<u32>,
 }
 

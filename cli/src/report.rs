@@ -40,7 +40,7 @@ pub struct ReportArguments {
     #[arg(long, conflicts_with_all = ["quick", "compare_table", "without_callgrind", "measured"])]
     gpu: bool,
     /// With --gpu, the adapter whose name holds this text.
-    #[arg(long, value_name = "NAME", requires = "gpu")]
+    #[arg(long, value_name = "NAME", requires = "gpu", conflicts_with = "quick")]
     adapter: Option<String>,
     /// Compile what standard input holds, in a process of its own.
     #[arg(long, hide = true)]

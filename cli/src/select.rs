@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use softbox::effects::{self, Effect, Effects};
 use softbox::translate::{self, Target};
 
-use crate::bake::write_file;
+use crate::bake::{check_file, write_file};
 use crate::progress;
 use crate::quality::QualityArguments;
 
@@ -53,6 +53,9 @@ enum Language {
 }
 
 pub fn select(arguments: &SelectArguments) -> anyhow::Result<()> {
+    if let Some(path) = &arguments.out {
+        check_file(path)?;
+    }
     let text = match &arguments.effects {
         Some(effects) => selected(arguments.quality.of(effects.parse()?), arguments.target)?,
         None if arguments.count => count()?,

@@ -13,6 +13,7 @@ use softbox::stability::page::{LevelSheet, Section, Sheet, all_curves, check_fol
 use softbox::stability::{Inputs, Run, beyond_lines, scene_by_both, sheet, summary, table_text};
 
 use crate::bake::write_file;
+use crate::number::Whole;
 use crate::progress;
 use crate::say::say;
 
@@ -34,7 +35,7 @@ pub struct StabilityArguments {
     #[arg(long, value_name = "LEVEL", default_value = "standard")]
     quality: Quality,
     /// How many cases to try, in units of about 3000.
-    #[arg(long, value_name = "N", default_value = "20", value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value = "20", value_parser = Whole { least: 1, most: 1000 }, allow_negative_numbers = true)]
     cases: u32,
     /// Run the include's twin on the CPU and no device; --out then draws no scene.
     #[arg(long, conflicts_with_all = ["adapter", "scene"])]
@@ -46,7 +47,7 @@ pub struct StabilityArguments {
     #[arg(long)]
     json: bool,
     /// Fail where more than this share of a bound is used; 1 is the bound itself.
-    #[arg(long, value_name = "SHARE", default_value = "1", value_parser = share)]
+    #[arg(long, value_name = "SHARE", default_value = "1", value_parser = share, allow_negative_numbers = true)]
     limit: f64,
     /// Folder for all of it: a page, a chart of the error along each approach by the published form and by ours, the
     /// numbers, scenes drawn by both. An older one there is replaced.
@@ -75,6 +76,11 @@ fn share(text: &str) -> Result<f64, String> {
 /// If anything is beyond its bound, a device is missing or fails, or something cannot be written.
 pub fn stability(arguments: &StabilityArguments) -> anyhow::Result<()> {
     if let Some(folder) = &arguments.docs {
+        anyhow::ensure!(
+            folder.is_dir(),
+            "there is no folder {}; --docs names one with the documentation",
+            folder.display()
+        );
         return document(folder);
     }
     if let Some(folder) = &arguments.out {

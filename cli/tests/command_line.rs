@@ -218,7 +218,17 @@ fn bake_writes_every_format_and_refuses_the_rest() {
             "{model}"
         );
     }
-    assert_refused(&softbox(&["bake", "--size", "1", "--out", &at("s.bin")], ""), &["table size is 1"]);
+    assert_refused(&softbox(&["build", "--update", &at("")], ""), &["wgsl/ltc.wgsl"]);
+    assert_refused(
+        &softbox(&["bake", "--size", "8", "--out", &at("none/s.bin")], ""),
+        &["there is no folder"],
+    );
+    assert_refused(&softbox(&["eval", "--on", "truth", "--quality", "fast"], ""), &["--quality", "truth"]);
+    assert_refused(&softbox(&["bake", "--sise", "8"], ""), &["--sise", "--size"]);
+    assert_refused(
+        &softbox(&["bake", "--size", "1", "--out", &at("s.bin")], ""),
+        &["--size is 1", "from 2 to 1024"],
+    );
     assert_refused(
         &softbox(&["bake", "--size", "4", "--model", "ggx-schlick", "--k", "7", "--out", &at("s.bin")], ""),
         &["--k is 7"],

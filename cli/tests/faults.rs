@@ -171,8 +171,11 @@ fn places_that_cannot_be_written_to_are_named() {
             } else {
                 parent
             };
-            let words: &[&str] =
-                if render { &["picture.png", "no such folder"] } else { &["cannot write", parent.as_str()] };
+            let words: &[&str] = if render {
+                &["picture.png", "there is no folder"]
+            } else {
+                &["cannot write", parent.as_str()]
+            };
             assert_refused(&arguments, &output, words);
         }
     }

@@ -93,7 +93,9 @@ fn what_cannot_be_is_refused_before_the_work() {
     let out = folder.path().join("out");
     let out = out.to_str().expect("a name");
     fails(&["stability", "--quality", "best"], &["best", "fast, standard, fine, finest"]);
-    fails(&["stability", "--cases", "0"], &["--cases", "1..=1000"]);
+    fails(&["stability", "--cases", "0"], &["--cases", "from 1 to 1000"]);
+    fails(&["stability", "--cases", "-1"], &["--cases is -1", "from 1 to 1000"]);
+    fails(&["stability", "--docs", "/no/such/folder"], &["no folder /no/such/folder"]);
     fails(&["stability", "--limit", "2"], &["--limit", "at most 1"]);
     fails(&["stability", "--adapter", "no such adapter"], &["no such adapter", "there are"]);
     fails(&["stability", "--cpu-only", "--adapter", "x"], &["cannot be used with"]);

@@ -28,6 +28,7 @@ pub enum Light {
     /// An ellipse.
     Disk {
         /// Its centre.
+        #[cfg_attr(feature = "scene", serde(alias = "centre"))]
         center: DVec3,
         /// One half-axis, or any vector from the centre to the edge.
         half_x: DVec3,
@@ -40,6 +41,7 @@ pub enum Light {
     /// A sphere.
     Sphere {
         /// Its centre.
+        #[cfg_attr(feature = "scene", serde(alias = "centre"))]
         center: DVec3,
         /// Its radius.
         radius: f64,

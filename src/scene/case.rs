@@ -96,8 +96,9 @@ impl Case {
                 return refuse(format!("not a case: {name} must be an object in braces"));
             }
         }
-        let RawCase { surface, light } =
-            RawCase::deserialize(&value).map_err(|error| CaseError(format!("not a case: {error}")))?;
+        let RawCase { surface, light } = serde_path_to_error::deserialize(&value).map_err(|error| {
+            CaseError(format!("not a case: {error}").replace("expected f64", "expected a number"))
+        })?;
         let shape = match light.get("shape") {
             Some(Value::String(shape)) if SHAPES.contains(&shape.as_str()) => shape,
             Some(shape) => {
@@ -148,7 +149,7 @@ fn json(line: &[u8]) -> Result<Value, CaseError> {
         let rest = text.get(error.column().saturating_sub(1)..).unwrap_or_default();
         let rest = rest.trim_start_matches('-');
         if error.to_string().contains("out of range") || rest.starts_with("NaN") || rest.starts_with("Inf") {
-            CaseError("a number is not finite".to_owned())
+            CaseError(format!("the number at column {} is not finite", error.column()))
         } else {
             let reason = error.to_string();
             let reason = reason.split(" at line ").next().unwrap_or_default();

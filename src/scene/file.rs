@@ -179,6 +179,7 @@ pub(super) struct MaterialEntry {
 pub(super) struct LightEntry {
     pub shape: Option<String>,
     pub points: Option<Vec<[f64; 3]>>,
+    #[serde(alias = "centre")]
     pub center: Option<[f64; 3]>,
     pub half_x: Option<[f64; 3]>,
     pub half_y: Option<[f64; 3]>,

@@ -207,12 +207,9 @@ pub fn check_png_path(path: &Path) -> Result<(), ImageError> {
     if !path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("png")) {
         return Err(ImageError::Name(path.to_owned()));
     }
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() && !folder.is_dir() => {
-            Err(ImageError::Refused { path: path.to_owned(), reason: "there is no such folder".to_owned() })
-        }
-        _ => Ok(()),
-    }
+    let refused =
+        |error: std::io::Error| ImageError::Refused { path: path.to_owned(), reason: error.to_string() };
+    output::check_file(path).map_err(refused)
 }
 
 /// Writes a picture as PNG, first under a temporary name in the same folder, so that a file of that name is a whole
