@@ -3228,41 +3228,54 @@ fn ltc_anisotropic_lobe(surface: LtcSurface, anisotropy: LtcAnisotropy, shape: v
     let up_along = -(rise * m.w + round_height * m.y) * a * scale;
     let across_across = (m.x * m.w - m.y * m.z) * scale * (c * round_lift - reach * rise / max(round_height, LTC_TINY));
 
-    // Turned from the stretched view's azimuth to the major direction, and corrected.
+    // Corrected, in the plane of the stretched view's azimuth, where the isotropic product has no more entries. A turn about
+    // the lobe's axis means nothing, and in any other frame sharp lobes seen at a grazing angle would be what is left of
+    // products that are larger by 1 / alpha.
     let view_x = anisotropy.view_major;
     let view_y = anisotropy.view_minor;
-    let wide = anisotropy.alpha_major * view_x;
-    let narrow = anisotropy.alpha_minor * view_y;
+    let alpha_x = anisotropy.alpha_major;
+    let alpha_y = anisotropy.alpha_minor;
+    let wide = alpha_x * view_x;
+    let narrow = alpha_y * view_y;
     let tangential = wide * wide + narrow * narrow;
-    let azimuth = vec2<f32>(wide, narrow) * inverseSqrt(max(tangential, 1e-30));
-    let difference = along_along - across_across;
-    let ratio = anisotropy.alpha_minor / anisotropy.alpha_major;
+    let azimuth = select(vec2<f32>(1.0, 0.0), vec2<f32>(wide, narrow) * inverseSqrt(max(tangential, 1e-30)), tangential > 1e-30);
+    let ratio = alpha_y / alpha_x;
     let depth = clamp((1.0 - ltc_anisotropic_root(ratio)) * 1.4624753, 0.0, 1.0);
-    let e_xx = across_across + difference * azimuth.x * azimuth.x + depth * first.x;
-    let e_xy = difference * azimuth.x * azimuth.y + depth * first.y;
-    let e_yy = across_across + difference * azimuth.y * azimuth.y + depth * first.z;
-    let e_xz = along_up * azimuth.x + depth * first.w;
-    let e_yz = along_up * azimuth.y + depth * second.x;
-    let e_zx = up_along * azimuth.x + depth * second.y;
-    let e_zy = up_along * azimuth.y + depth * second.z;
+    let p = azimuth * azimuth;
+    let q = azimuth.x * azimuth.y;
+    let e_uu = along_along + depth * (first.x * p.x + 2.0 * first.y * q + first.z * p.y);
+    let e_uv = depth * ((first.z - first.x) * q + first.y * (p.x - p.y));
+    let e_vv = across_across + depth * (first.x * p.y - 2.0 * first.y * q + first.z * p.x);
+    let e_uz = along_up + depth * (first.w * azimuth.x + second.x * azimuth.y);
+    let e_vz = depth * (second.x * azimuth.x - first.w * azimuth.y);
+    let e_zu = up_along + depth * (second.y * azimuth.x + second.z * azimuth.y);
+    let e_zv = depth * (second.z * azimuth.x - second.y * azimuth.y);
 
-    // The anisotropic stretch; as the isotropic one, but for `turn`, which is zero there.
+    // The anisotropic stretch; as the isotropic one, but for `turn`, which is zero there. Its first two columns are turned, too; what
+    // the second one has along the normal vanishes for a view along the surface.
     let inverse_length = inverseSqrt(max(tangential + c * c, LTC_TINY));
-    let slope_x = anisotropy.alpha_major * wide * inverse_length;
-    let slope_y = anisotropy.alpha_minor * narrow * inverse_length;
+    let slope_x = alpha_x * wide * inverse_length;
+    let slope_y = alpha_y * narrow * inverse_length;
     let tilt = tangential * inverse_length;
+    let height = tilt + c;
     let lift = 0.5 + 0.5 * (slope_x * slope_x + slope_y * slope_y);
     let turn = view_x * slope_y - view_y * slope_x;
     let normal = surface.normal;
-    let x = (anisotropy.major * (tilt + c) + anisotropy.minor * turn + normal * (view_x - c * slope_x)) * anisotropy.alpha_major;
-    let y = (anisotropy.minor * (tilt + c) - anisotropy.major * turn + normal * (view_y - c * slope_y)) * anisotropy.alpha_minor;
-    let z = anisotropy.major * (view_x * (lift - 1.0) - tilt * slope_x) + anisotropy.minor * (view_y * (lift - 1.0) - tilt * slope_y)
+    let major = anisotropy.major;
+    let minor = anisotropy.minor;
+    let x = alpha_x * azimuth;
+    let y = alpha_y * azimuth;
+    let u = major * (x.x * height - y.y * turn) + minor * (x.x * turn + y.y * height)
+        + normal * (x.x * (view_x - c * slope_x) + y.y * (view_y - c * slope_y));
+    let v = minor * (y.x * height - x.y * turn) - major * (y.x * turn + x.y * height)
+        + normal * (c * inverse_length * wide * azimuth.y * ((alpha_x - alpha_y) * (alpha_x + alpha_y)));
+    let z = major * (view_x * (lift - 1.0) - tilt * slope_x) + minor * (view_y * (lift - 1.0) - tilt * slope_y)
         + normal * (c * lift);
 
     // The lobe's matrix; a mirrored frame mirrors the lobe's space, in which the cosine is symmetric.
-    let m_x = x * e_xx + y * e_xy + z * e_zx;
-    let m_y = (x * e_xy + y * e_yy + z * e_zy) * anisotropy.handedness;
-    let m_z = x * e_xz + y * e_yz + z;
+    let m_x = u * e_uu + v * e_uv + z * e_zu;
+    let m_y = (u * e_uv + v * e_vv + z * e_zv) * anisotropy.handedness;
+    let m_z = u * e_uz + v * e_vz + z;
     // Its cofactors are the inverse up to a factor, and those of the inverse the matrix.
     let middle = cross(m_z, m_x);
     let unit_scale = inverseSqrt(max(dot(middle, middle), LTC_TINY));
@@ -3275,7 +3288,8 @@ fn ltc_anisotropic_lobe(surface: LtcSurface, anisotropy: LtcAnisotropy, shape: v
     lobe.fresnel = clamp(amplitude.y * brightness, 0.0, 1.0);
     lobe.axis_z = cross(m_x, m_y) * unit_scale;
     lobe.share = 0.5 + 0.5 * heights.z * inverseSqrt(max(dot(heights, heights), LTC_TINY));
-    let volume = unit_scale * dot(m_y, lobe.axis_y);
+    // Not negative, whatever rounding says: next to the horizon the matrix is all but singular.
+    let volume = abs(unit_scale * dot(m_y, lobe.axis_y));
     lobe.normal_x = m_x * volume;
     lobe.normal_y = m_y * volume;
     lobe.normal_z = m_z * volume;

@@ -177,12 +177,42 @@ pub(crate) fn stretch<R: Real>(surface: &LtcSurface<R>, anisotropy: &LtcAnisotro
     ]
 }
 
+/// Direction of the stretched view from the major direction, a unit vector; along the normal any.
+fn azimuth<R: Real>(anisotropy: &LtcAnisotropy<R>) -> [R; 2] {
+    let wide = anisotropy.alpha_major * anisotropy.view_major;
+    let narrow = anisotropy.alpha_minor * anisotropy.view_minor;
+    let squared = wide * wide + narrow * narrow;
+    if squared > R::new(1e-30) {
+        let inverse = squared.inverse_sqrt();
+        [wide * inverse, narrow * inverse]
+    } else {
+        [R::new(1.0), R::new(0.0)]
+    }
+}
+
 /// The matrix from the clamped cosine to the normals that [`stretch`] takes, for the isotropic lobe.
 pub(crate) fn base<R: Real>(
     surface: &LtcSurface<R>,
     anisotropy: &LtcAnisotropy<R>,
     shape: R::Vec4,
 ) -> Shape<R> {
+    let [xx, yy, xz, zx] = planar_base(surface, anisotropy, shape);
+    let [cosine, sine] = azimuth(anisotropy);
+    let difference = xx - yy;
+    [
+        yy + difference * cosine * cosine,
+        difference * cosine * sine,
+        yy + difference * sine * sine,
+        xz * cosine,
+        xz * sine,
+        zx * cosine,
+        zx * sine,
+    ]
+}
+
+/// Its entries (1,1), (2,2), (1,3) and (3,1) in the plane of the stretched view's azimuth, where it has no more than these and
+/// (3,3), which is 1.
+fn planar_base<R: Real>(surface: &LtcSurface<R>, anisotropy: &LtcAnisotropy<R>, shape: R::Vec4) -> [R; 4] {
     let (one, half): (R, R) = (R::new(1.0), R::new(0.5));
     let (c, s, a) = (surface.cos_view, surface.sin_view, anisotropy.alpha_round);
     let [x, y, z, w] = shape.into();
@@ -200,21 +230,7 @@ pub(crate) fn base<R: Real>(
     let zx = -(rise * m[3] + (tilt + c) * m[1]) * a * scale;
     let volume = (m[0] * m[3] - m[1] * m[2]) * scale;
     let yy = volume * (c * lift - reach * rise / (tilt + c).max(R::new(LTC_TINY)));
-    let wide = anisotropy.alpha_major * anisotropy.view_major;
-    let narrow = anisotropy.alpha_minor * anisotropy.view_minor;
-    let squared = wide * wide + narrow * narrow;
-    let along = squared.max(R::new(1e-30)).inverse_sqrt();
-    let (cosine, sine) = (wide * along, narrow * along);
-    let difference = xx - yy;
-    [
-        yy + difference * cosine * cosine,
-        difference * cosine * sine,
-        yy + difference * sine * sine,
-        xz * cosine,
-        xz * sine,
-        zx * cosine,
-        zx * sine,
-    ]
+    [xx, yy, xz, zx]
 }
 
 /// The lobe of an anisotropic surface from two texels of the isotropic table at `ltc_anisotropic_round` and two of
@@ -230,20 +246,38 @@ pub fn ltc_anisotropic_lobe<R: Real>(
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
     let ratio = anisotropy.alpha_minor / anisotropy.alpha_major;
     let depth = ((one - ltc_anisotropic_root(ratio)) * R::new(1.462_475_3)).clamp(zero, one);
-    let base = base(surface, anisotropy, shape);
+    let [along, across, along_up, up_along] = planar_base(surface, anisotropy, shape);
     let [xx, xy, yy, xz] = first.into();
     let [yz, zx, zy, brighter] = second.into();
-    let correction = [xx, xy, yy, xz, yz, zx, zy];
-    let [xx, xy, yy, xz, yz, zx, zy]: Shape<R> = core::array::from_fn(|k| base[k] + depth * correction[k]);
-    let [x, y, z] = stretch(surface, anisotropy)
+    // As in the include, in the plane of the stretched view's azimuth.
+    let [cosine, sine] = azimuth(anisotropy);
+    let (p, q, r) = (cosine * cosine, cosine * sine, sine * sine);
+    let two = R::new(2.0);
+    let e_uu = along + depth * (xx * p + two * xy * q + yy * r);
+    let e_uv = depth * ((yy - xx) * q + xy * (p - r));
+    let e_vv = across + depth * (xx * r - two * xy * q + yy * p);
+    let e_uz = along_up + depth * (xz * cosine + yz * sine);
+    let e_vz = depth * (yz * cosine - xz * sine);
+    let e_zu = up_along + depth * (zx * cosine + zy * sine);
+    let e_zv = depth * (zy * cosine - zx * sine);
+    let [x, y, z] = stretch(surface, anisotropy);
+    let c = surface.cos_view;
+    let (alpha_x, alpha_y) = (anisotropy.alpha_major, anisotropy.alpha_minor);
+    let wide = alpha_x * anisotropy.view_major;
+    let narrow = alpha_y * anisotropy.view_minor;
+    let inverse = (wide * wide + narrow * narrow + c * c).max(R::new(LTC_TINY)).inverse_sqrt();
+    let lean = c * inverse * wide * sine * ((alpha_x - alpha_y) * (alpha_x + alpha_y));
+    let turned = |a: R, b: R| [a * cosine + b * sine, b * cosine - a * sine];
+    let [[u_x, v_x], [u_y, v_y], [u_z, _]] = [turned(x[0], y[0]), turned(x[1], y[1]), turned(x[2], y[2])];
+    let [u, v, z] = [[u_x, u_y, u_z], [v_x, v_y, lean], z]
         .map(|[x, y, z]| anisotropy.major * x + anisotropy.minor * y + surface.normal * z);
-    let m_x = x * xx + y * xy + z * zx;
-    let m_y = (x * xy + y * yy + z * zy) * anisotropy.handedness;
-    let m_z = x * xz + y * yz + z;
+    let m_x = u * e_uu + v * e_uv + z * e_zu;
+    let m_y = (u * e_uv + v * e_vv + z * e_zv) * anisotropy.handedness;
+    let m_z = u * e_uz + v * e_vz + z;
     let across = m_z.cross(m_x);
     let scale = across.dot(across).max(R::new(LTC_TINY)).inverse_sqrt();
     let axis_y = across * scale;
-    let volume = scale * m_y.dot(axis_y);
+    let volume = (scale * m_y.dot(axis_y)).abs();
     let heights = [m_x, m_y, m_z].map(|m| surface.normal.dot(m));
     let squared = heights[0] * heights[0] + heights[1] * heights[1] + heights[2] * heights[2];
     let [albedo, fresnel, ..] = amplitude.into();
