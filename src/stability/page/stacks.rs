@@ -49,8 +49,8 @@ pub(super) fn section(rows: &[StackRow]) -> String {
         "{heading}A part of the catalogue, the same for all, through compilers and drivers that share no code. Each level shows the share of the bounds that was \
          used, of the form factor / of specular light. Rows beyond them are processors that round one way only, filters with weights of 8 bits, whose own wider \
          bounds the test asserts, reciprocals from estimates of 12 bits, without which nothing would show that the test can fail, and those with one step of \
-         Newton's, which lose lengths near the largest number that there is: WGSL permits neither. The next column is the largest difference from the first row \
-         in any number, degenerate inputs included, where nothing but a physical value is promised and the side of a horizon may hang on one rounding.\n\n{}",
+         Newton's, which lose lengths near the largest number that there is: WGSL permits neither. The next column is the largest difference \
+         from the first row in a number that has a bound: where the bound is wide the side of a horizon may hang on one rounding.\n\n{}",
         table(&head, ways.iter().map(line))
     )
 }

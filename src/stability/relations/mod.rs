@@ -2,7 +2,8 @@
 //!
 //! Each of [`RELATIONS`] makes of one setting a few cases and a claim about their values: that a weighted sum vanishes, that one
 //! is at most another, that bits are the same. The tolerance is what the documentation allows each of the values, and what
-//! the rounding of coordinates costs that the relation itself had to make; none of it is measured.
+//! the rounding of coordinates costs that the relation itself had to make. The form of each follows from that; some of their
+//! factors were set after inputs that offended.
 //!
 //! [`settings`] makes inputs that aim at trouble, [`examine`] compares all of them in one evaluation, [`shrunk`] simplifies
 //! what offends, [`Kept`] keeps the worst.
