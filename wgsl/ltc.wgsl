@@ -3241,11 +3241,11 @@ fn ltc_anisotropic_lobe(surface: LtcSurface, anisotropy: LtcAnisotropy, shape: v
     let azimuth = select(vec2<f32>(1.0, 0.0), vec2<f32>(wide, narrow) * inverseSqrt(max(tangential, 1e-30)), tangential > 1e-30);
     let ratio = alpha_y / alpha_x;
     let depth = clamp((1.0 - ltc_anisotropic_root(ratio)) * 1.4624753, 0.0, 1.0);
-    let p = azimuth * azimuth;
-    let q = azimuth.x * azimuth.y;
-    let e_uu = along_along + depth * (first.x * p.x + 2.0 * first.y * q + first.z * p.y);
-    let e_uv = depth * ((first.z - first.x) * q + first.y * (p.x - p.y));
-    let e_vv = across_across + depth * (first.x * p.y - 2.0 * first.y * q + first.z * p.x);
+    let squares = azimuth * azimuth;
+    let both = azimuth.x * azimuth.y;
+    let e_uu = along_along + depth * (first.x * squares.x + 2.0 * first.y * both + first.z * squares.y);
+    let e_uv = depth * ((first.z - first.x) * both + first.y * (squares.x - squares.y));
+    let e_vv = across_across + depth * (first.x * squares.y - 2.0 * first.y * both + first.z * squares.x);
     let e_uz = along_up + depth * (first.w * azimuth.x + second.x * azimuth.y);
     let e_vz = depth * (second.x * azimuth.x - first.w * azimuth.y);
     let e_zu = up_along + depth * (second.y * azimuth.x + second.z * azimuth.y);
@@ -3288,7 +3288,7 @@ fn ltc_anisotropic_lobe(surface: LtcSurface, anisotropy: LtcAnisotropy, shape: v
     lobe.fresnel = clamp(amplitude.y * brightness, 0.0, 1.0);
     lobe.axis_z = cross(m_x, m_y) * unit_scale;
     lobe.share = 0.5 + 0.5 * heights.z * inverseSqrt(max(dot(heights, heights), LTC_TINY));
-    // Not negative, whatever rounding says: next to the horizon the matrix is all but singular.
+    // Of a map that mirrors nothing; rounding may say otherwise where the matrix is all but singular, next to the horizon.
     let volume = abs(unit_scale * dot(m_y, lobe.axis_y));
     lobe.normal_x = m_x * volume;
     lobe.normal_y = m_y * volume;

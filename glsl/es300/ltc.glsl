@@ -4421,11 +4421,11 @@ LtcLobe ltc_anisotropic_lobe(LtcSurface surface, LtcAnisotropy anisotropy, vec4 
     float ratio = (alpha_y / alpha_x);
     float _e117 = ltc_anisotropic_root(ratio);
     float depth = clamp(((1.0 - _e117) * 1.4624753), 0.0, 1.0);
-    vec2 p = (azimuth * azimuth);
-    float q = (azimuth.x * azimuth.y);
-    float e_uu = (along_along + (depth * (((first.x * p.x) + ((2.0 * first.y) * q)) + (first.z * p.y))));
-    float e_uv = (depth * (((first.z - first.x) * q) + (first.y * (p.x - p.y))));
-    float e_vv = (across_across + (depth * (((first.x * p.y) - ((2.0 * first.y) * q)) + (first.z * p.x))));
+    vec2 squares = (azimuth * azimuth);
+    float both = (azimuth.x * azimuth.y);
+    float e_uu = (along_along + (depth * (((first.x * squares.x) + ((2.0 * first.y) * both)) + (first.z * squares.y))));
+    float e_uv = (depth * (((first.z - first.x) * both) + (first.y * (squares.x - squares.y))));
+    float e_vv = (across_across + (depth * (((first.x * squares.y) - ((2.0 * first.y) * both)) + (first.z * squares.x))));
     float e_uz = (along_up + (depth * ((first.w * azimuth.x) + (second.x * azimuth.y))));
     float e_vz = (depth * ((second.x * azimuth.x) - (first.w * azimuth.y)));
     float e_zu = (up_along + (depth * ((second.y * azimuth.x) + (second.z * azimuth.y))));

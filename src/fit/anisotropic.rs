@@ -16,8 +16,8 @@ use crate::brdf::AnisotropicGgx;
 use crate::brdf::{Brdf, Lambert};
 use crate::shade::{
     LTC_ALPHA_FLOOR, LTC_ANISOTROPIC_KNEE as KNEE, LTC_ANISOTROPIC_SIZE, LtcAnisotropy, LtcSurface,
-    anisotropic_base, anisotropic_stretch, ltc_anisotropic_round, ltc_anisotropy, ltc_surface,
-    ltc_table_coordinates,
+    anisotropic_azimuth, anisotropic_base, anisotropic_stretch, ltc_anisotropic_round, ltc_anisotropy,
+    ltc_surface, ltc_table_coordinates,
 };
 use crate::table::Table;
 
@@ -290,9 +290,23 @@ fn texel(table: &Table, nodes: usize, index: usize) -> [f64; 8] {
     let (surface, anisotropy) = place.surface();
     let round = ltc_anisotropic_round(&surface, &anisotropy);
     let at = ltc_table_coordinates(&round, table.size() as f64);
-    let stretch = DMat3::from_cols_array_2d(&anisotropic_stretch(&surface, &anisotropy));
+    // The table's entries are along the major and minor direction, wherever the view is.
+    let [cosine, sine] = anisotropic_azimuth(&anisotropy);
+    let turn = DMat3::from_cols_array_2d(&[[cosine, sine, 0.0], [-sine, cosine, 0.0], [0.0, 0.0, 1.0]]);
+    let stretch = DMat3::from_cols_array_2d(&anisotropic_stretch(&surface, &anisotropy)) * turn.transpose();
     let target = Target::new(&place, stretch, nodes);
-    let base = anisotropic_base(&surface, &anisotropy, table.sample::<f64>(0, at));
+    let [along, across, along_up, up_along] =
+        anisotropic_base(&surface, &anisotropy, table.sample::<f64>(0, at));
+    let difference = along - across;
+    let base = [
+        across + difference * cosine * cosine,
+        difference * cosine * sine,
+        across + difference * sine * sine,
+        along_up * cosine,
+        along_up * sine,
+        up_along * cosine,
+        up_along * sine,
+    ];
     let shape = target.fit(&base, PRIOR / place.depth, place.free());
     let brightness = target.albedo / table.sample::<f64>(1, at).x - 1.0;
     core::array::from_fn(|k| (if k < 7 { shape[k] - base[k] } else { brightness }) / place.depth)

@@ -34,10 +34,6 @@ pub struct LtcAnisotropy<R: Real> {
     pub handedness: R,
 }
 
-/// The seven numbers of a lobe's matrix: entries (1,1), (1,2), (2,2), (1,3), (2,3), (3,1), (3,2); (2,1) equals
-/// (1,2), and (3,3) is 1.
-pub(crate) type Shape<R> = [R; 7];
-
 /// The square root, without the built-in one's lack of a guarantee at zero.
 pub fn ltc_anisotropic_root<R: Real>(x: R) -> R {
     x * x.max(R::new(LTC_TINY)).inverse_sqrt()
@@ -149,36 +145,8 @@ pub fn ltc_anisotropic_texels<R: Real>(coordinates: R::Vec4, table_size: R) -> (
     (places.map(Into::into), weights)
 }
 
-/// The columns of the matrix that leads microfacet normals, in the space where their distribution is a
-/// hemisphere, to directions of reflected light near the middle of the lobe, in the frame (major, minor,
-/// normal); see `ltc_anisotropic_lobe` in the include.
-pub(crate) fn stretch<R: Real>(surface: &LtcSurface<R>, anisotropy: &LtcAnisotropy<R>) -> [[R; 3]; 3] {
-    let half: R = R::new(0.5);
-    let c = surface.cos_view;
-    let (view_x, view_y) = (anisotropy.view_major, anisotropy.view_minor);
-    let (alpha_x, alpha_y) = (anisotropy.alpha_major, anisotropy.alpha_minor);
-    let wide = alpha_x * view_x;
-    let narrow = alpha_y * view_y;
-    let tangential = wide * wide + narrow * narrow;
-    let inverse = (tangential + c * c).max(R::new(LTC_TINY)).inverse_sqrt();
-    let slope_x = alpha_x * wide * inverse;
-    let slope_y = alpha_y * narrow * inverse;
-    let tilt = tangential * inverse;
-    let lift = half + half * (slope_x * slope_x + slope_y * slope_y);
-    let turn = view_x * slope_y - view_y * slope_x;
-    [
-        [alpha_x * (tilt + c), alpha_x * turn, alpha_x * (view_x - c * slope_x)],
-        [-alpha_y * turn, alpha_y * (tilt + c), alpha_y * (view_y - c * slope_y)],
-        [
-            view_x * (lift - R::new(1.0)) - tilt * slope_x,
-            view_y * (lift - R::new(1.0)) - tilt * slope_y,
-            c * lift,
-        ],
-    ]
-}
-
 /// Direction of the stretched view from the major direction, a unit vector; along the normal any.
-fn azimuth<R: Real>(anisotropy: &LtcAnisotropy<R>) -> [R; 2] {
+pub(crate) fn azimuth<R: Real>(anisotropy: &LtcAnisotropy<R>) -> [R; 2] {
     let wide = anisotropy.alpha_major * anisotropy.view_major;
     let narrow = anisotropy.alpha_minor * anisotropy.view_minor;
     let squared = wide * wide + narrow * narrow;
@@ -190,29 +158,46 @@ fn azimuth<R: Real>(anisotropy: &LtcAnisotropy<R>) -> [R; 2] {
     }
 }
 
-/// The matrix from the clamped cosine to the normals that [`stretch`] takes, for the isotropic lobe.
+/// The columns of the matrix that leads microfacet normals, in the space where their distribution is a
+/// hemisphere, to directions of reflected light near the middle of the lobe; see `ltc_anisotropic_lobe` in the include. From
+/// components along the [`azimuth`], across it and along the normal to (major, minor, normal).
+pub(crate) fn stretch<R: Real>(surface: &LtcSurface<R>, anisotropy: &LtcAnisotropy<R>) -> [[R; 3]; 3] {
+    let (one, half): (R, R) = (R::new(1.0), R::new(0.5));
+    let c = surface.cos_view;
+    let (view_x, view_y) = (anisotropy.view_major, anisotropy.view_minor);
+    let (alpha_x, alpha_y) = (anisotropy.alpha_major, anisotropy.alpha_minor);
+    let wide = alpha_x * view_x;
+    let narrow = alpha_y * view_y;
+    let tangential = wide * wide + narrow * narrow;
+    let inverse = (tangential + c * c).max(R::new(LTC_TINY)).inverse_sqrt();
+    let slope_x = alpha_x * wide * inverse;
+    let slope_y = alpha_y * narrow * inverse;
+    let tilt = tangential * inverse;
+    let height = tilt + c;
+    let lift = half + half * (slope_x * slope_x + slope_y * slope_y);
+    let turn = view_x * slope_y - view_y * slope_x;
+    let [cosine, sine] = azimuth(anisotropy);
+    let (x, y) = ([alpha_x * cosine, alpha_x * sine], [alpha_y * cosine, alpha_y * sine]);
+    // Multiplied out, as the rest of it cancels.
+    let lean = c * inverse * wide * sine * ((alpha_x - alpha_y) * (alpha_x + alpha_y));
+    [
+        [
+            x[0] * height - y[1] * turn,
+            x[0] * turn + y[1] * height,
+            x[0] * (view_x - c * slope_x) + y[1] * (view_y - c * slope_y),
+        ],
+        [-(y[0] * turn + x[1] * height), y[0] * height - x[1] * turn, lean],
+        [view_x * (lift - one) - tilt * slope_x, view_y * (lift - one) - tilt * slope_y, c * lift],
+    ]
+}
+
+/// The entries (1,1), (2,2), (1,3) and (3,1) of the matrix from the clamped cosine to the normals that [`stretch`] takes, for the
+/// isotropic lobe; the entry (3,3) is 1, and there are no others.
 pub(crate) fn base<R: Real>(
     surface: &LtcSurface<R>,
     anisotropy: &LtcAnisotropy<R>,
     shape: R::Vec4,
-) -> Shape<R> {
-    let [xx, yy, xz, zx] = planar_base(surface, anisotropy, shape);
-    let [cosine, sine] = azimuth(anisotropy);
-    let difference = xx - yy;
-    [
-        yy + difference * cosine * cosine,
-        difference * cosine * sine,
-        yy + difference * sine * sine,
-        xz * cosine,
-        xz * sine,
-        zx * cosine,
-        zx * sine,
-    ]
-}
-
-/// Its entries (1,1), (2,2), (1,3) and (3,1) in the plane of the stretched view's azimuth, where it has no more than these and
-/// (3,3), which is 1.
-fn planar_base<R: Real>(surface: &LtcSurface<R>, anisotropy: &LtcAnisotropy<R>, shape: R::Vec4) -> [R; 4] {
+) -> [R; 4] {
     let (one, half): (R, R) = (R::new(1.0), R::new(0.5));
     let (c, s, a) = (surface.cos_view, surface.sin_view, anisotropy.alpha_round);
     let [x, y, z, w] = shape.into();
@@ -246,30 +231,21 @@ pub fn ltc_anisotropic_lobe<R: Real>(
     let (zero, one, half) = (R::new(0.0), R::new(1.0), R::new(0.5));
     let ratio = anisotropy.alpha_minor / anisotropy.alpha_major;
     let depth = ((one - ltc_anisotropic_root(ratio)) * R::new(1.462_475_3)).clamp(zero, one);
-    let [along, across, along_up, up_along] = planar_base(surface, anisotropy, shape);
+    let [along, across, along_up, up_along] = base(surface, anisotropy, shape);
     let [xx, xy, yy, xz] = first.into();
     let [yz, zx, zy, brighter] = second.into();
     // As in the include, in the plane of the stretched view's azimuth.
     let [cosine, sine] = azimuth(anisotropy);
-    let (p, q, r) = (cosine * cosine, cosine * sine, sine * sine);
+    let (along_square, both, across_square) = (cosine * cosine, cosine * sine, sine * sine);
     let two = R::new(2.0);
-    let e_uu = along + depth * (xx * p + two * xy * q + yy * r);
-    let e_uv = depth * ((yy - xx) * q + xy * (p - r));
-    let e_vv = across + depth * (xx * r - two * xy * q + yy * p);
+    let e_uu = along + depth * (xx * along_square + two * xy * both + yy * across_square);
+    let e_uv = depth * ((yy - xx) * both + xy * (along_square - across_square));
+    let e_vv = across + depth * (xx * across_square - two * xy * both + yy * along_square);
     let e_uz = along_up + depth * (xz * cosine + yz * sine);
     let e_vz = depth * (yz * cosine - xz * sine);
     let e_zu = up_along + depth * (zx * cosine + zy * sine);
     let e_zv = depth * (zy * cosine - zx * sine);
-    let [x, y, z] = stretch(surface, anisotropy);
-    let c = surface.cos_view;
-    let (alpha_x, alpha_y) = (anisotropy.alpha_major, anisotropy.alpha_minor);
-    let wide = alpha_x * anisotropy.view_major;
-    let narrow = alpha_y * anisotropy.view_minor;
-    let inverse = (wide * wide + narrow * narrow + c * c).max(R::new(LTC_TINY)).inverse_sqrt();
-    let lean = c * inverse * wide * sine * ((alpha_x - alpha_y) * (alpha_x + alpha_y));
-    let turned = |a: R, b: R| [a * cosine + b * sine, b * cosine - a * sine];
-    let [[u_x, v_x], [u_y, v_y], [u_z, _]] = [turned(x[0], y[0]), turned(x[1], y[1]), turned(x[2], y[2])];
-    let [u, v, z] = [[u_x, u_y, u_z], [v_x, v_y, lean], z]
+    let [u, v, z] = stretch(surface, anisotropy)
         .map(|[x, y, z]| anisotropy.major * x + anisotropy.minor * y + surface.normal * z);
     let m_x = u * e_uu + v * e_uv + z * e_zu;
     let m_y = (u * e_uv + v * e_vv + z * e_zv) * anisotropy.handedness;

@@ -39,7 +39,9 @@ pub use anisotropic::{
     ltc_anisotropic_texels, ltc_anisotropy,
 };
 #[cfg(feature = "bake")]
-pub(crate) use anisotropic::{base as anisotropic_base, stretch as anisotropic_stretch};
+pub(crate) use anisotropic::{
+    azimuth as anisotropic_azimuth, base as anisotropic_base, stretch as anisotropic_stretch,
+};
 pub use cone::{
     LtcAcross, LtcCone, LtcCut, Together, ltc_cone, ltc_cone_across, ltc_cone_between, ltc_cone_inward,
     ltc_cone_outward, ltc_cone_part, ltc_cone_step, ltc_cone_tilt, ltc_cut, ltc_cut_together, ltc_half_turn,

@@ -1,5 +1,7 @@
 //! One hard case: a surface, a light, and what must hold of the value.
 
+use core::ops::RangeInclusive;
+
 use glam::{DVec3, Vec3};
 
 use crate::device::{Batch, EvaluateLight, EvaluateSurface};
@@ -165,6 +167,16 @@ impl Case {
                 show(core::slice::from_mut(radius));
             }
         }
+    }
+
+    /// Whether the largest number of every vector, and every radius, is zero or in `range`, as [`REORDERED`](super::REORDERED) asks for.
+    pub fn is_within(&self, range: &RangeInclusive<f32>) -> bool {
+        let mut all = true;
+        self.clone().each_vector(&mut |numbers| {
+            let extent = numbers.iter().fold(0.0, |most: f32, number| most.max(number.abs()));
+            all &= extent == 0.0 || range.contains(&extent);
+        });
+        all
     }
 
     /// Values (diffuse, specular, fresnel) by the twin of the include on the CPU, in the precision of `R`, at the quality

@@ -340,6 +340,8 @@ fn an_outline_along_a_lobes_horizon_stays_closed_however_products_are_fused() {
     for quality in [Quality::Standard, Quality::Fine, Quality::Finest] {
         let summary = summarised(WGSL_INCLUDE, quality, &cases, &devices);
         assert_eq!(summary.offences(&format!("{quality}, fused")), [""; 0]);
+        // The stated bound is a hundred times what such a polygon takes.
+        assert!(summary.largest(true)[1] < 0.02, "{quality}: {summary}");
     }
 }
 

@@ -13,7 +13,7 @@ use softbox::WGSL_INCLUDE;
 use softbox::effects::{Effects, Quality};
 use softbox::interpret::{Filter, Freedom, Outcome, Policy};
 use softbox::shade::LobeSum;
-use softbox::stability::{Bound, Case, conforming_bound};
+use softbox::stability::{Bound, Case, REORDERED, conforming_bound};
 use softbox::table::Table;
 
 use summary::Summary;
@@ -145,7 +145,7 @@ fn every_level_keeps_its_bounds_on_the_worst_device() {
             for &index in chunk {
                 let case = &cases[index];
                 let orders = [("worst", Policy::exact()), ("worst in another order", Policy::ordered(3))];
-                let orders = &orders[..if reordering::is_promised(case) { 2 } else { 1 }];
+                let orders = &orders[..if case.is_within(&REORDERED) { 2 } else { 1 }];
                 for (name, order) in orders {
                     let policy = order.with_rounding(softbox::interpret::Rounding::Nearest);
                     let worst = machine.worst(index as u32, policy, 3);

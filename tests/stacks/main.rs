@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex};
 
 use libtest_mimic::{Arguments, Failed, Trial};
 use softbox::effects::Quality;
-use softbox::stability::{Stack, StackRow};
+use softbox::stability::{REORDERED, Stack, StackRow};
 
 use level::Level;
 
@@ -32,6 +32,8 @@ fn is_long() -> bool {
 enum Promise {
     /// The stated bounds, times a factor.
     Bounds(f64),
+    /// The stated bounds, for inputs within [`REORDERED`]: of what reorders products no more is promised.
+    InRange,
     /// It must go beyond them, or the bounds, the cases or this harness could not fail.
     Beyond,
 }
@@ -94,6 +96,11 @@ fn trial(way: &Arc<Way>, quality: Quality, rows: &Rows) -> Trial {
         let keeps = match way.promise {
             Promise::Bounds(factor) if factor <= 1.0 => row.beyond == 0 && row.worst_share() <= factor,
             Promise::Bounds(factor) => row.not_finite == 0 && row.worst_share() <= factor,
+            Promise::InRange => {
+                let outcomes = level.inputs.outcomes(&output.values);
+                let mut offenders = outcomes.values().flat_map(|outcome| &outcome.offenders);
+                offenders.all(|index| !level.inputs.cases[*index].is_within(&REORDERED))
+            }
             Promise::Beyond => row.beyond > 0,
         };
         let verdict = if keeps {

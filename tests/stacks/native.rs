@@ -47,7 +47,7 @@ const NATIVE: &[Native] = &[
         name: "-O3 -ffast-math, fused, reciprocals from estimates with one step of Newton",
         flags: "-O3 -mavx2 -mfma -ffast-math -mrecip=all:1",
         long: true,
-        promise: Promise::Bounds(1.0),
+        promise: Promise::InRange,
     },
     Native {
         name: "-O3 -ffast-math, reciprocals from estimates of 12 bits",

@@ -71,7 +71,9 @@ pub fn small_charts(
     let mut names: Vec<&str> = shown.iter().map(|series| series.name.as_str()).collect();
     names.extend(any_bound.then_some("bound of Softbox's exact levels"));
     names.extend(any_mark.then_some("infinite or not a number"));
-    let widths: Vec<f64> = names.iter().map(|name| 30.0 + text_width(name, FONT - 1.0) + 12.0).collect();
+    // A reader without these fonts gets wider ones.
+    let widths: Vec<f64> =
+        names.iter().map(|name| 30.0 + 1.2 * text_width(name, FONT - 1.0) + 12.0).collect();
     let places = flow(&widths, 12.0, whole - 6.0);
     let lines = places.last().map_or(0, |(_, line)| line + 1);
     let top = 32.0 + 18.0 * lines as f64;
